@@ -1,0 +1,33 @@
+# SPDX-License-Identifier: Apache-2.0
+# How every target of the project is compiled, and where things are installed.
+
+set(OSIO_SHARE_DIR share/osio)
+
+add_library(osio_flags INTERFACE)
+target_compile_features(osio_flags INTERFACE cxx_std_20)
+target_compile_options(osio_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Wcast-align
+  -Wnon-virtual-dtor -Woverloaded-virtual -Wdouble-promotion -Wformat=2 -Wimplicit-fallthrough
+  -Wextra-semi -Wvla -Wundef -Wmissing-declarations
+  $<$<CXX_COMPILER_ID:GNU>:-Wduplicated-cond -Wduplicated-branches -Wlogical-op -Wuseless-cast>)
+if(OSIO_WERROR)
+  target_compile_options(osio_flags INTERFACE -Werror)
+endif()
+foreach(sanitizer IN LISTS OSIO_SANITIZE)
+  target_compile_options(osio_flags INTERFACE -fsanitize=${sanitizer} -fno-omit-frame-pointer)
+  target_link_options(osio_flags INTERFACE -fsanitize=${sanitizer})
+endforeach()
+
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+find_package(Threads REQUIRED)
+
+# osio_library(NAME SOURCES ... LINK ...): a static library of the product.
+function(osio_library name)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  add_library(${name} STATIC ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE osio_flags PUBLIC ${arg_LINK})
+  target_compile_features(${name} PUBLIC cxx_std_20)
+endfunction()

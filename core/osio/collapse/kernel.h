@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <osio/collapse/band_view.h>
+#include <osio/collapse/weights.h>
+
+#include <cstddef>
+#include <span>
+
+/// The sum over bands, for a run of pixels: out[row][pixel] = sum over bands of weight x sample.
+///
+/// Every executor computes the same thing to the last bit: each product and each sum is rounded to
+/// double (no fused multiply-add), bands are added in order from +0, bands of weight zero are left
+/// out of a row, and the sum is rounded once to float. So the result does not depend on the
+/// instruction set, the length of the run or where it starts.
+namespace osio {
+
+/// The obvious double loop: the truth that the others are tested against. Any stride, any type.
+void collapse_run_reference(std::span<const BandView> bands, const WeightMatrix& weights,
+                            std::size_t pixel_count, std::span<float* const> out);
+
+/// The same, in SIMD for contiguous half and float samples of three outputs, on the widest
+/// instruction set of this machine; collapse_run_reference for all else.
+void collapse_run(std::span<const BandView> bands, const WeightMatrix& weights,
+                  std::size_t pixel_count, std::span<float* const> out);
+
+/// One sample as a double.
+[[nodiscard]] double sample_at(const BandView& band, std::size_t pixel);
+
+}  // namespace osio

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Compiled with -ffp-contract=off: weight x sample is rounded before it is added.
+#include <osio/collapse/kernel.h>
+
+#include <osio/base/half.h>
+
+#include <cstring>
+
+namespace osio {
+
+double sample_at(const BandView& band, std::size_t pixel) {
+    const std::byte* at = band.data + static_cast<std::ptrdiff_t>(pixel) * band.pixel_stride_bytes;
+    switch (band.type) {
+    case SampleType::Half: {
+        std::uint16_t bits = 0;
+        std::memcpy(&bits, at, sizeof bits);
+        return static_cast<double>(float_from_half(bits));
+    }
+    case SampleType::Float: {
+        float value = 0;
+        std::memcpy(&value, at, sizeof value);
+        return static_cast<double>(value);
+    }
+    case SampleType::Uint: break;
+    }
+    std::uint32_t value = 0;
+    std::memcpy(&value, at, sizeof value);
+    return static_cast<double>(value);
+}
+
+void collapse_run_reference(std::span<const BandView> bands, const WeightMatrix& weights,
+                            std::size_t pixel_count, std::span<float* const> out) {
+    for (std::size_t row = 0; row < weights.rows(); ++row) {
+        for (std::size_t pixel = 0; pixel < pixel_count; ++pixel) {
+            double sum = 0;
+            for (std::size_t band = 0; band < bands.size(); ++band) {
+                const double weight = weights.at(row, band);
+                if (weight != 0)
+                    sum += weight * sample_at(bands[band], pixel);
+            }
+            out[row][pixel] = static_cast<float>(sum);
+        }
+    }
+}
+
+}  // namespace osio

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <osio/base/result.h>
+#include <osio/collapse/request.h>
+#include <osio/collapse/weights.h>
+#include <osio/colour/illuminant.h>
+#include <osio/colour/observer.h>
+#include <osio/layout/channel_layout.h>
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace osio {
+
+/// Gives the text of a file that a request names (a light of the user's). The plan opens no file
+/// itself.
+using TextLoader = std::function<Result<std::string>(std::string_view path)>;
+
+/// A request made ready for one set of bands: one row of weights for each output, everything folded
+/// in. A plan is built once and never changed; equal requests on equal bands have equal ids.
+struct CollapsePlan {
+    CollapseRequest request;           ///< with the set that was chosen
+    OutputSpace space;
+    std::vector<std::string> outputs;  ///< what the rows are: X, Y, Z or R, G, B
+    std::vector<Band> bands;           ///< by wavelength
+    WeightMatrix weights;              ///< outputs x bands, linear; the space's curve comes after
+    Observer observer;
+    std::optional<Illuminant> illuminant;
+    Quadrature quadrature = Quadrature::Sum1nm;
+    std::optional<Vector3> adapted_from;  ///< XYZ of the white that adaptation starts from, Y = 1
+    std::vector<double> extrapolated_share;  ///< for each output, share of weight beyond the bands
+    std::vector<std::string> warnings;
+    std::string id;
+
+    [[nodiscard]] std::vector<double> wavelengths_nm() const;
+    /// How the result's channels are called, by the request's `names`.
+    [[nodiscard]] std::vector<std::string> channel_names() const;
+};
+
+/// Builds the weights of CIE 15:2018, 7.1 for one set.
+///
+/// Reflectance: X = k sum R S x, k = 1 / sum S y over 360-830 nm whatever the bands cover, so that
+/// the perfect diffuser has Y = 1. Radiance: divided by sum y, so that flat 1 has Y = 1. Spaces
+/// other than xyz are adapted by Bradford from the light's computed white (radiance: from D65,
+/// that is not at all for D65 spaces), or from the request's `white`.
+///
+/// Refuses, before a pixel is read: a reflectance without an illuminant, a radiance with one, bands
+/// wholly outside 360-830 nm, one band with extrapolation zero (a curve of no width), names that do
+/// not fit the space. What is only doubtful becomes a warning.
+[[nodiscard]] Result<CollapsePlan> make_plan(const SpectralSet& set, const CollapseRequest& request,
+                                             const TextLoader& load_text);
+
+}  // namespace osio

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <osio/collapse/selection.h>
+
+#include <osio/base/text.h>
+#include <osio/layout/dialect.h>
+
+#include <algorithm>
+
+namespace osio {
+
+namespace {
+
+/// Names of at most this many channels are listed in an error.
+constexpr std::size_t kChannelsInError = 6;
+
+std::string part_label(std::span<const PartSummary> parts, std::size_t part) {
+    std::string out = "part " + std::to_string(part);
+    if (!parts[part].name.empty())
+        out += " \"" + parts[part].name + "\"";
+    return out;
+}
+
+std::string list_parts(std::span<const PartSummary> parts) {
+    std::vector<std::string> labels;
+    for (std::size_t part = 0; part < parts.size(); ++part)
+        labels.push_back(part_label(parts, part));
+    return join(labels, ", ");
+}
+
+std::string list_sets(std::span<const PartSummary> parts, std::span<const Selection> selections) {
+    std::vector<std::string> labels;
+    for (const Selection& s : selections) {
+        std::string label = parts[s.part].layout->sets[s.set].name();
+        if (parts.size() > 1)
+            label += " in " + part_label(parts, s.part);
+        labels.push_back(std::move(label));
+    }
+    return join(labels, ", ");
+}
+
+tl::unexpected<Error> not_spectral(std::span<const PartSummary> parts,
+                                   std::span<const std::size_t> chosen) {
+    std::vector<std::string> names;
+    for (const std::size_t part : chosen) {
+        const auto& channels = parts[part].layout->channel_names;
+        if (const auto dialect = recognise_dialect(channels, parts[part].attribute_names))
+            return fail(ErrorCode::NotSpectral,
+                        "found " + *dialect +
+                            ": a dialect that is not read yet; expected channels of the spectral "
+                            "EXR layout such as T.450nm or S0.450nm");
+        names.insert(names.end(), channels.begin(), channels.end());
+    }
+    const std::size_t count = names.size();
+    names.resize(std::min(count, kChannelsInError));
+    return fail(ErrorCode::NotSpectral,
+                "no spectral band among " + std::to_string(count) + " channels (" +
+                    join(names, ", ") + (count > kChannelsInError ? ", ..." : "") +
+                    "); expected channels of the spectral EXR layout such as T.450nm or S0.450nm");
+}
+
+bool stands_back(const SpectralSet& set) {
+    return set.family == Family::S1 || set.family == Family::S2 || set.family == Family::S3;
+}
+
+Result<void> check_samples(std::span<const PartSummary> parts, const Selection& selection) {
+    const PartSummary& part = parts[selection.part];
+    if (part.deep)
+        return fail(ErrorCode::Unsupported,
+                    part_label(parts, selection.part) +
+                        " is deep (several samples a pixel); flatten it first");
+    const SpectralSet& set = part.layout->sets[selection.set];
+    for (const Band& band : set.bands)
+        if (part.subsampled[band.channel])
+            return fail(ErrorCode::Unsupported,
+                        "band \"" + part.layout->channel_names[band.channel] +
+                            "\" is sub-sampled; every band needs a sample at every pixel");
+    return {};
+}
+
+}  // namespace
+
+Result<std::size_t> select_part(std::span<const PartSummary> parts, const std::string& part) {
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        if (parts[i].name == part)
+            return i;
+    if (const auto index = parse_int(part))
+        if (*index >= 0 && static_cast<std::size_t>(*index) < parts.size())
+            return static_cast<std::size_t>(*index);
+    return fail(ErrorCode::NoSuchPart,
+                "there is no part \"" + part + "\"; the file has " + list_parts(parts));
+}
+
+Result<Selection> select_set(std::span<const PartSummary> parts, const CollapseRequest& request) {
+    std::vector<std::size_t> chosen;
+    if (request.part.empty()) {
+        for (std::size_t part = 0; part < parts.size(); ++part)
+            chosen.push_back(part);
+    } else {
+        OSIO_TRY(const std::size_t part, select_part(parts, request.part));
+        chosen.push_back(part);
+    }
+
+    std::vector<Selection> all;
+    for (const std::size_t part : chosen)
+        for (std::size_t set = 0; set < parts[part].layout->sets.size(); ++set)
+            all.push_back({part, set});
+    if (all.empty())
+        return not_spectral(parts, chosen);
+
+    const auto set_of = [&](const Selection& s) -> const SpectralSet& {
+        return parts[s.part].layout->sets[s.set];
+    };
+    std::vector<Selection> fitting;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(fitting), [&](const Selection& s) {
+        return request.set.empty() ? !stands_back(set_of(s)) : set_of(s).name() == request.set;
+    });
+    if (fitting.empty() && request.set.empty())
+        fitting = all;
+    if (fitting.empty())
+        return fail(ErrorCode::NoSuchPart, "there is no set \"" + request.set + "\"; found " +
+                                               list_sets(parts, all));
+    if (fitting.size() > 1)
+        return fail(ErrorCode::Ambiguous,
+                    "several sets of bands fit: " + list_sets(parts, fitting) +
+                        "; name one with set=... or part=...");
+    OSIO_CHECK_OK(check_samples(parts, fitting.front()));
+    return fitting.front();
+}
+
+}  // namespace osio

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <osio/base/matrix3.h>
+#include <osio/base/result.h>
+#include <osio/colour/observer.h>
+#include <osio/spectra/basis.h>
+#include <osio/spectra/spectrum.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace osio {
+
+/// A light: relative spectral power at 1 nm, 360-830 nm. Its scale never matters.
+struct Illuminant {
+    std::string id;      ///< "D65", or the path of the user's table
+    std::string source;  ///< standard and edition, or the user's table
+    std::string digest;  ///< of the table: names the numbers that were used
+    NmSamples power{};
+};
+
+/// The light of that name (case ignored): "D65", "A", "FL11", ...; F2 is read as FL2. UnknownName
+/// names the nearest.
+[[nodiscard]] Result<Illuminant> find_illuminant(std::string_view name);
+
+/// A light from a user's table (see parse_spectrum_csv): straight lines at 1 nm, zero outside it.
+/// Negative power and a table without power inside 360-830 nm are refused.
+[[nodiscard]] Result<Illuminant> illuminant_from_csv(std::string_view csv, std::string_view path);
+
+/// Every name that find_illuminant knows.
+[[nodiscard]] std::vector<std::string> illuminant_names();
+
+/// Tristimulus values of the perfect diffuser under `light`, Y = 1, over 360-830 nm. InvalidGrid
+/// where the light has no luminance to normalise by.
+[[nodiscard]] Result<Vector3> white_point(const Illuminant& light, const Observer& observer,
+                                          Quadrature quadrature = Quadrature::Sum1nm);
+
+}  // namespace osio

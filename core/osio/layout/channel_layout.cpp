@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <osio/layout/channel_layout.h>
+
+#include <osio/base/text.h>
+
+#include <algorithm>
+#include <map>
+#include <utility>
+
+namespace osio {
+
+namespace {
+
+/// At most this many names are spelled out in one warning.
+constexpr std::size_t kNamesInWarning = 3;
+
+std::string quoted_list(const std::vector<std::string>& names) {
+    std::string out;
+    for (std::size_t i = 0; i < std::min(names.size(), kNamesInWarning); ++i)
+        out += (i ? ", \"" : "\"") + names[i] + "\"";
+    if (names.size() > kNamesInWarning)
+        out += " and " + std::to_string(names.size() - kNamesInWarning) + " more";
+    return out;
+}
+
+void warn_of_duplicates(const SpectralSet& set, ChannelLayout& layout) {
+    for (std::size_t i = 0; i < set.bands.size();) {
+        std::size_t end = i + 1;
+        while (end < set.bands.size() && set.bands[end].wavelength_nm == set.bands[i].wavelength_nm)
+            ++end;
+        if (end - i > 1) {
+            std::vector<std::string> names;
+            for (std::size_t k = i; k < end; ++k)
+                names.push_back(layout.channel_names[set.bands[k].channel]);
+            layout.warnings.push_back(quoted_list(names) + " are the same wavelength, " +
+                                      format_double(set.bands[i].wavelength_nm) +
+                                      " nm; a collapse takes their mean");
+        }
+        i = end;
+    }
+}
+
+void warn_of_reradiation(const SpectralSet& set, ChannelLayout& layout) {
+    if (!set.reradiation.empty())
+        layout.warnings.push_back("set " + set.name() + " is fluorescent: its " +
+                                  std::to_string(set.reradiation.size()) +
+                                  " reradiation channels (T.in.out) are not collapsed yet, only "
+                                  "what leaves at the wavelength at which it came");
+}
+
+void warn_of_near_misses(ChannelLayout& layout) {
+    std::vector<std::string> names;
+    for (const std::size_t channel : layout.others)
+        if (looks_like_a_band(layout.channel_names[channel]))
+            names.push_back(layout.channel_names[channel]);
+    if (!names.empty())
+        layout.warnings.push_back(quoted_list(names) +
+                                  (names.size() == 1 ? " is" : " are") +
+                                  " no band: a band name reads FAMILY.NUMBER[PREFIX]UNIT with a "
+                                  "comma as decimal mark, such as T.450nm or S0.550,5nm");
+}
+
+}  // namespace
+
+std::string_view quantity_name(Quantity quantity) {
+    return quantity == Quantity::Reflectance ? "reflectance" : "radiance";
+}
+
+std::string SpectralSet::name() const {
+    return (root.empty() ? std::string() : root + ".") + std::string(family_name(family));
+}
+
+Quantity SpectralSet::quantity() const {
+    return family == Family::T ? Quantity::Reflectance : Quantity::Radiance;
+}
+
+std::vector<double> SpectralSet::wavelengths_nm() const {
+    std::vector<double> out;
+    out.reserve(bands.size());
+    for (const Band& band : bands)
+        out.push_back(band.wavelength_nm);
+    return out;
+}
+
+std::optional<std::size_t> ChannelLayout::find_channel(std::string_view name) const {
+    const auto found = std::find(channel_names.begin(), channel_names.end(), name);
+    if (found == channel_names.end())
+        return std::nullopt;
+    return static_cast<std::size_t>(found - channel_names.begin());
+}
+
+std::optional<std::size_t> ChannelLayout::alpha_of(const SpectralSet& set) const {
+    if (!set.root.empty())
+        if (const auto own = find_channel(set.root + ".A"))
+            return own;
+    return find_channel("A");
+}
+
+ChannelLayout parse_channel_layout(std::span<const std::string> channel_names, DecimalMark mark) {
+    ChannelLayout layout;
+    layout.channel_names.assign(channel_names.begin(), channel_names.end());
+
+    std::map<std::pair<std::string, Family>, SpectralSet> sets;
+    for (std::size_t channel = 0; channel < channel_names.size(); ++channel) {
+        const auto name = parse_channel_name(channel_names[channel], mark);
+        if (!name) {
+            layout.others.push_back(channel);
+            continue;
+        }
+        SpectralSet& set = sets[{name->root, name->family}];
+        if (name->emitted_nm)
+            set.reradiation.push_back({name->wavelength_nm, *name->emitted_nm, channel});
+        else
+            set.bands.push_back({name->wavelength_nm, channel});
+    }
+    for (auto& [key, set] : sets) {
+        set.root = key.first;
+        set.family = key.second;
+        std::stable_sort(set.bands.begin(), set.bands.end(), [](const Band& a, const Band& b) {
+            return a.wavelength_nm < b.wavelength_nm;
+        });
+        std::stable_sort(set.reradiation.begin(), set.reradiation.end(),
+                         [](const Reradiation& a, const Reradiation& b) {
+                             return std::pair(a.excited_nm, a.emitted_nm) <
+                                    std::pair(b.excited_nm, b.emitted_nm);
+                         });
+        warn_of_duplicates(set, layout);
+        warn_of_reradiation(set, layout);
+        layout.sets.push_back(std::move(set));
+    }
+    warn_of_near_misses(layout);
+    return layout;
+}
+
+}  // namespace osio

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <osio/layout/channel_name.h>
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace osio {
+
+/// What a sample is, and with it whether a light has still to be applied.
+enum class Quantity {
+    Reflectance,  ///< reflected or transmitted share: needs an illuminant
+    Radiance,     ///< emitted or reflected light: must not get one
+};
+
+/// "reflectance", "radiance".
+[[nodiscard]] std::string_view quantity_name(Quantity quantity);
+
+/// A band and the channel that holds it, as an index into ChannelLayout::channel_names.
+struct Band {
+    double wavelength_nm = 0;
+    std::size_t channel = 0;
+};
+
+/// A fluorescent pair: light at excited_nm that leaves at emitted_nm.
+struct Reradiation {
+    double excited_nm = 0;
+    double emitted_nm = 0;
+    std::size_t channel = 0;
+};
+
+/// The bands of one root and family: one spectral image.
+struct SpectralSet {
+    std::string root;
+    Family family = Family::T;
+    std::vector<Band> bands;  ///< by wavelength; equal wavelengths in channel order
+    std::vector<Reradiation> reradiation;
+
+    /// "T", "S0", "left.T": what `--set` takes.
+    [[nodiscard]] std::string name() const;
+    [[nodiscard]] Quantity quantity() const;
+    [[nodiscard]] std::vector<double> wavelengths_nm() const;
+};
+
+/// What the channels of one part are.
+struct ChannelLayout {
+    std::vector<std::string> channel_names;
+    std::vector<SpectralSet> sets;         ///< by root, then S0, S1, S2, S3, T
+    std::vector<std::size_t> others;       ///< channels that are no bands
+    std::vector<std::string> warnings;     ///< sentences for people
+
+    /// Index of the channel with exactly that name.
+    [[nodiscard]] std::optional<std::size_t> find_channel(std::string_view name) const;
+
+    /// The alpha that goes with a set: `ROOT.A`, else `A`.
+    [[nodiscard]] std::optional<std::size_t> alpha_of(const SpectralSet& set) const;
+};
+
+/// Sorts channels into sets. Every channel appears exactly once, in a set or in `others`. Duplicate
+/// wavelengths, names that miss the grammar by little and reradiation are reported as warnings.
+[[nodiscard]] ChannelLayout parse_channel_layout(std::span<const std::string> channel_names,
+                                                 DecimalMark mark);
+
+}  // namespace osio

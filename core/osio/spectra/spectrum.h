@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <osio/base/result.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace osio {
+
+/// A curve over wavelength: strictly increasing wavelengths in nm and a value at each, joined by
+/// straight lines, zero outside.
+struct Spectrum {
+    std::vector<double> wavelengths_nm;
+    std::vector<double> values;
+
+    /// The value at `wavelength_nm`; zero outside the first and last sample.
+    [[nodiscard]] double linear_at(double wavelength_nm) const;
+};
+
+/// A spectrum from a header attribute of the spectral EXR layout, and what had to be passed over.
+struct SpectrumText {
+    Spectrum spectrum;
+    std::vector<std::string> rejected;  ///< the pieces that are no `wavelength:value`
+};
+
+/// Reads `<wavelength><unit>:<value>;...` as tolerantly as real files need: with or without the
+/// last `;`, with spaces, with a point or a comma, in any order. The layout's reference library
+/// requires the last `;` and colour-science refuses it; both are read here. Infinities, NaN and
+/// pieces without a unit are rejected and listed; of equal wavelengths the first stays.
+[[nodiscard]] SpectrumText parse_spectrum_text(std::string_view text);
+
+/// Reads a two-column table `nm,value`: comma, semicolon, tab or spaces between the columns, a
+/// decimal point, lines starting with `#` and one header line optional. Wavelengths must be
+/// positive, strictly increasing and in nanometres, values finite. The error names the line.
+[[nodiscard]] Result<Spectrum> parse_spectrum_csv(std::string_view text);
+
+}  // namespace osio
