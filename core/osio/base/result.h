@@ -46,6 +46,13 @@ using Result = tl::expected<T, Error>;
     return tl::unexpected<Error>(Error{code, std::move(what), std::move(where)});
 }
 
+/// The same failure; where it does not say where it was, it was in `where`.
+[[nodiscard]] inline tl::unexpected<Error> fail_in(std::string_view where, Error error) {
+    if (error.where.empty())
+        error.where = where;
+    return tl::unexpected<Error>(std::move(error));
+}
+
 /// The same failure, seen from further out: `where` becomes `outer: where`.
 [[nodiscard]] inline tl::unexpected<Error> fail_within(std::string_view outer, Error error) {
     error.where = error.where.empty() ? std::string(outer) : std::string(outer) + ": " + error.where;

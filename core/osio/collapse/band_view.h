@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 namespace osio {
 
@@ -11,6 +12,16 @@ enum class SampleType : std::uint8_t { Half, Float, Uint };
 
 [[nodiscard]] constexpr std::size_t sample_bytes(SampleType type) {
     return type == SampleType::Half ? 2 : 4;
+}
+
+/// "half", "float", "uint".
+[[nodiscard]] constexpr std::string_view sample_type_name(SampleType type) {
+    switch (type) {
+    case SampleType::Half: return "half";
+    case SampleType::Float: return "float";
+    case SampleType::Uint: break;
+    }
+    return "uint";
 }
 
 /// The samples of one band along a run of pixels. Owns nothing. `data` may be null for a band that

@@ -3,13 +3,10 @@
 
 #include <osio/base/result.h>
 #include <osio/collapse/band_view.h>
-#include <osio/collapse/plan.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <memory>
-#include <span>
 #include <vector>
 
 /// Pixels in blocks of whole rows, from a file to a consumer, a few blocks at a time.
@@ -20,6 +17,12 @@ struct PlanarBlock {
     int first_row = 0;
     int row_count = 0;
     std::vector<BandView> planes;
+};
+
+/// A range of rows of the data window, first to last, both inside.
+struct RowRange {
+    int first = 0;
+    int last = 0;
 };
 
 /// Decodes blocks for one worker. It is never shared, so it needs no lock.
@@ -40,18 +43,8 @@ class BlockSource {
     [[nodiscard]] virtual std::size_t block_count() const = 0;
     /// The block that holds a row of the data window.
     [[nodiscard]] virtual std::size_t block_of_row(int row) const = 0;
+    [[nodiscard]] virtual RowRange rows_of_block(std::size_t block) const = 0;
     [[nodiscard]] virtual Result<std::unique_ptr<BlockReader>> start_reader() const = 0;
-};
-
-/// Where finished rows go.
-class RowSink {
-  public:
-    virtual ~RowSink() = default;
-
-    /// `planes`: one pointer a channel, rows x width floats each, row after row. Calls come one at a
-    /// time, in order of rows.
-    [[nodiscard]] virtual Result<void> write_rows(int first_row, int row_count,
-                                                  std::span<const float* const> planes) = 0;
 };
 
 /// Runs a body on several workers at once and returns when all have returned. The core makes no
@@ -67,29 +60,24 @@ class Runner {
 /// Told the share of work done, 0 to 1; false cancels.
 using Progress = std::function<bool(double share)>;
 
-/// What a collapse met, for people to be told. A pixel counts once in each line that fits it.
-struct CollapseCounts {
-    std::uint64_t pixels = 0;
-    std::uint64_t nan = 0;       ///< pixels with a NaN output
-    std::uint64_t infinite = 0;  ///< pixels with an infinite output
-    std::uint64_t negative = 0;  ///< pixels with a negative output
+/// What one worker does with blocks. Each worker has its own visitor; only deliver() is serialised.
+class BlockVisitor {
+  public:
+    virtual ~BlockVisitor() = default;
 
-    CollapseCounts& operator+=(const CollapseCounts& other);
+    /// Works on a block, while other workers work on theirs.
+    virtual void process(const PlanarBlock& block) = 0;
+
+    /// Hands on what process() made of the same block. One call at a time, blocks in order.
+    [[nodiscard]] virtual Result<void> deliver(const PlanarBlock& block) = 0;
 };
 
-/// A range of rows of the data window, first to last, both inside.
-struct RowRange {
-    int first = 0;
-    int last = 0;
-};
+/// Makes a worker's visitor.
+using StartVisitor = std::function<std::unique_ptr<BlockVisitor>()>;
 
-/// Collapses the blocks that hold `rows` and hands them to `sink`, in order. The source's planes
-/// are the plan's bands in the plan's order (null where no output needs one), then alpha where
-/// `has_alpha`; the sink gets the plan's outputs, then alpha as it was. Colour stays associated
-/// with alpha: a space with a curve is encoded from unassociated colour and associated again.
-[[nodiscard]] Result<CollapseCounts> collapse_stream(const BlockSource& source,
-                                                     const CollapsePlan& plan, bool has_alpha,
-                                                     RowRange rows, RowSink& sink, Runner& runner,
-                                                     const Progress& progress);
+/// Reads the blocks that hold `rows` on the runner's workers, each block once. Memory is one block a
+/// worker, whatever the image. The first failure stops the work and is returned.
+[[nodiscard]] Result<void> visit_blocks(const BlockSource& source, RowRange rows, Runner& runner,
+                                        const StartVisitor& start, const Progress& progress);
 
 }  // namespace osio

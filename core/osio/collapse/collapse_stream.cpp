@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <osio/collapse/collapse_stream.h>
+
+#include <osio/collapse/kernel.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osio {
+
+namespace {
+
+/// What all workers of one collapse share. `counts` belongs to deliver(), one call at a time.
+struct Collapse {
+    const CollapsePlan& plan;
+    bool has_alpha;
+    std::size_t width;
+    RowRange rows;
+    RowSink& sink;
+    CollapseCounts counts;
+};
+
+/// Collapses blocks into planes of its own, reused from block to block.
+class Collapser final : public BlockVisitor {
+  public:
+    explicit Collapser(Collapse& collapse)
+        : m_shared(collapse), m_plan(collapse.plan),
+          m_planes(collapse.plan.weights.rows() + (collapse.has_alpha ? 1 : 0)) {}
+
+    void process(const PlanarBlock& block) override {
+        const std::size_t pixels = static_cast<std::size_t>(block.row_count) * m_shared.width;
+        m_pointers.clear();
+        for (std::vector<float>& plane : m_planes) {
+            plane.resize(pixels);
+            m_pointers.push_back(plane.data());
+        }
+        const std::size_t rows = m_plan.weights.rows();
+        const std::span<const BandView> bands(block.planes.data(), m_plan.bands.size());
+        collapse_run(bands, m_plan.weights, pixels, std::span(m_pointers).first(rows));
+        if (m_shared.has_alpha)
+            for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+                m_planes.back()[pixel] = static_cast<float>(sample_at(block.planes.back(), pixel));
+        if (m_plan.space.transfer == Transfer::Srgb)
+            encode(pixels);
+        m_first_row = std::max(m_shared.rows.first, block.first_row);
+        m_row_count =
+            std::min(m_shared.rows.last, block.first_row + block.row_count - 1) - m_first_row + 1;
+        m_counts = count(rows_of(block));
+    }
+
+    [[nodiscard]] Result<void> deliver(const PlanarBlock& block) override {
+        m_shared.counts += m_counts;
+        return m_shared.sink.write_rows(m_first_row, m_row_count, rows_of(block));
+    }
+
+  private:
+    /// The wanted rows of the last block, one pointer a channel.
+    [[nodiscard]] std::vector<const float*> rows_of(const PlanarBlock& block) const {
+        const std::size_t skip =
+            static_cast<std::size_t>(m_first_row - block.first_row) * m_shared.width;
+        std::vector<const float*> out;
+        for (const float* plane : m_pointers)
+            out.push_back(plane + skip);
+        return out;
+    }
+
+    [[nodiscard]] CollapseCounts count(std::span<const float* const> planes) const {
+        CollapseCounts counts;
+        counts.pixels = static_cast<std::uint64_t>(m_row_count) * m_shared.width;
+        for (std::size_t pixel = 0; pixel < counts.pixels; ++pixel) {
+            bool nan = false, infinite = false, negative = false;
+            for (std::size_t row = 0; row < m_plan.weights.rows(); ++row) {
+                const float value = planes[row][pixel];
+                nan |= std::isnan(value);
+                infinite |= std::isinf(value);
+                negative |= value < 0;
+            }
+            counts.nan += nan;
+            counts.infinite += infinite;
+            counts.negative += negative;
+        }
+        return counts;
+    }
+
+    void encode(std::size_t pixels) {
+        for (std::size_t row = 0; row < m_plan.weights.rows(); ++row) {
+            for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+                float& value = m_planes[row][pixel];
+                const double alpha = m_shared.has_alpha ? static_cast<double>(m_planes.back()[pixel]) : 1;
+                const bool associated = alpha > 0 && alpha != 1;
+                const double linear = static_cast<double>(value) / (associated ? alpha : 1);
+                value = static_cast<float>(srgb_encode(linear) * (associated ? alpha : 1));
+            }
+        }
+    }
+
+    Collapse& m_shared;
+    const CollapsePlan& m_plan;
+    std::vector<std::vector<float>> m_planes;
+    std::vector<float*> m_pointers;
+    int m_first_row = 0;
+    int m_row_count = 0;
+    CollapseCounts m_counts;
+};
+
+}  // namespace
+
+CollapseCounts& CollapseCounts::operator+=(const CollapseCounts& other) {
+    pixels += other.pixels;
+    nan += other.nan;
+    infinite += other.infinite;
+    negative += other.negative;
+    return *this;
+}
+
+Result<CollapseCounts> collapse_stream(const BlockSource& source, const CollapsePlan& plan,
+                                       bool has_alpha, RowRange rows, RowSink& sink, Runner& runner,
+                                       const Progress& progress) {
+    Collapse collapse{plan, has_alpha, static_cast<std::size_t>(source.width()), rows, sink, {}};
+    const auto start = [&] { return std::make_unique<Collapser>(collapse); };
+    OSIO_CHECK_OK(visit_blocks(source, rows, runner, start, progress));
+    return collapse.counts;
+}
+
+}  // namespace osio

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <osio/collapse/plan.h>
+#include <osio/collapse/stream.h>
+
+#include <cstdint>
+#include <span>
+
+namespace osio {
+
+/// Where finished rows go.
+class RowSink {
+  public:
+    virtual ~RowSink() = default;
+
+    /// `planes`: one pointer a channel, rows x width floats each, row after row. Calls come one at a
+    /// time, in order of rows.
+    [[nodiscard]] virtual Result<void> write_rows(int first_row, int row_count,
+                                                  std::span<const float* const> planes) = 0;
+};
+
+/// What a collapse met, for people to be told. A pixel counts once in each line that fits it.
+struct CollapseCounts {
+    std::uint64_t pixels = 0;
+    std::uint64_t nan = 0;       ///< pixels with a NaN output
+    std::uint64_t infinite = 0;  ///< pixels with an infinite output
+    std::uint64_t negative = 0;  ///< pixels with a negative output
+
+    CollapseCounts& operator+=(const CollapseCounts& other);
+};
+
+/// Collapses the blocks that hold `rows` and hands the rows to `sink`. The source's planes are the
+/// plan's bands in the plan's order (null where no output needs one), then alpha where `has_alpha`;
+/// the sink gets the plan's outputs, then alpha as it was. Colour stays associated with alpha: a
+/// space with a curve is encoded from unassociated colour and associated again.
+[[nodiscard]] Result<CollapseCounts> collapse_stream(const BlockSource& source,
+                                                     const CollapsePlan& plan, bool has_alpha,
+                                                     RowRange rows, RowSink& sink, Runner& runner,
+                                                     const Progress& progress);
+
+}  // namespace osio

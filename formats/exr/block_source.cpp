@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <formats/exr/block_source.h>
+
+#include <formats/exr/block_buffer.h>
+#include <formats/exr/block_readers.h>
+
+#include <OpenEXR/openexr_part.h>
+#include <OpenEXR/openexr_std_attr.h>
+
+#include <algorithm>
+
+namespace osio::exr {
+
+namespace {
+
+/// A block of fewer rows is not worth handing to a worker; chunks of one line are taken together.
+constexpr int kFewestRows = 16;
+
+constexpr std::uint64_t kMostBlockBytes = std::uint64_t{1} << 32;
+constexpr std::size_t kPlaneAlignment = 64;
+
+std::size_t padded(std::size_t bytes) {
+    return (bytes + kPlaneAlignment - 1) / kPlaneAlignment * kPlaneAlignment;
+}
+
+class ExrBlockSource final : public BlockSource {
+  public:
+    explicit ExrBlockSource(BlockJob job) : m_job(std::move(job)) {}
+
+    [[nodiscard]] int width() const override { return m_job.grid.window.width(); }
+    [[nodiscard]] std::size_t block_count() const override { return m_job.grid.block_count(); }
+
+    [[nodiscard]] std::size_t block_of_row(int row) const override {
+        const auto offset = static_cast<std::size_t>(std::int64_t{row} - m_job.grid.window.min_y);
+        return offset / static_cast<std::size_t>(m_job.grid.rows_per_block);
+    }
+
+    [[nodiscard]] RowRange rows_of_block(std::size_t block) const override {
+        const int first = m_job.grid.first_row(block);
+        return {first, first + m_job.grid.row_count(block) - 1};
+    }
+
+    [[nodiscard]] Result<std::unique_ptr<BlockReader>> start_reader() const override {
+        switch (m_job.file->parts()[m_job.part].header.compression()) {
+        case Imf::PIZ_COMPRESSION:
+        case Imf::B44_COMPRESSION:
+        case Imf::B44A_COMPRESSION:
+        case Imf::DWAA_COMPRESSION:
+        case Imf::DWAB_COMPRESSION: return make_imf_reader(m_job);
+        default: return make_core_reader(m_job);
+        }
+    }
+
+  private:
+    BlockJob m_job;
+};
+
+}  // namespace
+
+std::size_t BlockGrid::block_count() const {
+    const auto rows = static_cast<std::size_t>(rows_per_block);
+    return (static_cast<std::size_t>(window.height()) + rows - 1) / rows;
+}
+
+int BlockGrid::first_row(std::size_t block) const {
+    return static_cast<int>(std::int64_t{window.min_y} +
+                            static_cast<std::int64_t>(block) * rows_per_block);
+}
+
+int BlockGrid::row_count(std::size_t block) const {
+    return static_cast<int>(std::min<std::int64_t>(
+        rows_per_block, std::int64_t{window.max_y} - first_row(block) + 1));
+}
+
+Result<BlockGrid> block_grid(const ExrFile& file, std::size_t part) {
+    const ExrPart& header = file.parts()[part];
+    const int index = static_cast<int>(part);
+    BlockGrid grid{header.data_window, 0};
+    if (header.tiled) {
+        uint32_t x = 0, y = 0;
+        exr_tile_level_mode_t levels{};
+        exr_tile_round_mode_t rounding{};
+        const auto code =
+            exr_get_tile_descriptor(file.context(), index, &x, &y, &levels, &rounding);
+        if (code != EXR_ERR_SUCCESS)
+            return core_failure(code, file.path());
+        grid.rows_per_block = static_cast<int>(std::min<std::int64_t>(y, grid.window.height()));
+    } else {
+        int32_t lines = 0;
+        const auto code = exr_get_scanlines_per_chunk(file.context(), index, &lines);
+        if (code != EXR_ERR_SUCCESS)
+            return core_failure(code, file.path());
+        const int chunks = std::max(1, kFewestRows / std::max(lines, 1));
+        grid.rows_per_block = lines * chunks;
+    }
+    if (grid.rows_per_block <= 0)
+        return fail(ErrorCode::Damaged, "chunks of no lines", file.path());
+    return grid;
+}
+
+Result<std::unique_ptr<BlockSource>> make_block_source(std::shared_ptr<const ExrFile> file,
+                                                       std::size_t part, PlaneChannels planes) {
+    const ExrPart& header = file->parts()[part];
+    if (header.deep)
+        return fail(ErrorCode::Unsupported, "the part is deep (several samples a pixel)",
+                    file->path());
+    for (const auto channel : planes)
+        if (channel && header.channels[*channel].subsampled)
+            return fail(ErrorCode::Unsupported,
+                        "channel \"" + header.channels[*channel].name + "\" is sub-sampled",
+                        file->path());
+    OSIO_TRY(const BlockGrid grid, block_grid(*file, part));
+    if (BlockBuffer::bytes_needed(header, planes, grid) > kMostBlockBytes)
+        return fail(ErrorCode::Damaged,
+                    "a row of chunks needs more than " + std::to_string(kMostBlockBytes) + " bytes",
+                    file->path());
+    return std::make_unique<ExrBlockSource>(BlockJob{std::move(file), part, std::move(planes), grid});
+}
+
+BlockBuffer::BlockBuffer(const ExrPart& part, const PlaneChannels& planes, const BlockGrid& grid)
+    : m_memory(bytes_needed(part, planes, grid)) {
+    const std::size_t samples = static_cast<std::size_t>(grid.window.width()) *
+                                static_cast<std::size_t>(grid.rows_per_block);
+    void* at = m_memory.data();
+    std::size_t space = m_memory.size();
+    auto* next = static_cast<std::byte*>(std::align(kPlaneAlignment, 1, at, space));
+    for (const auto channel : planes) {
+        const SampleType type = channel ? part.channels[*channel].type : SampleType::Float;
+        m_types.push_back(type);
+        m_planes.push_back(channel ? next : nullptr);
+        if (channel)
+            next += padded(samples * sample_bytes(type));
+    }
+}
+
+std::uint64_t BlockBuffer::bytes_needed(const ExrPart& part, const PlaneChannels& planes,
+                                        const BlockGrid& grid) {
+    const std::uint64_t samples = static_cast<std::uint64_t>(grid.window.width()) *
+                                  static_cast<std::uint64_t>(grid.rows_per_block);
+    std::uint64_t bytes = kPlaneAlignment;
+    for (const auto channel : planes)
+        if (channel)
+            bytes += padded(samples * sample_bytes(part.channels[*channel].type));
+    return bytes;
+}
+
+PlanarBlock BlockBuffer::block(int first_row, int row_count) const {
+    PlanarBlock out{first_row, row_count, {}};
+    for (std::size_t plane = 0; plane < m_planes.size(); ++plane)
+        out.planes.push_back({m_planes[plane], m_types[plane],
+                              static_cast<std::ptrdiff_t>(sample_bytes(m_types[plane]))});
+    return out;
+}
+
+}  // namespace osio::exr

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <formats/exr/exr_file.h>
+
+#include <osio/collapse/stream.h>
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace osio::exr {
+
+/// Which channel each plane of a block holds; nothing for a plane that nobody reads.
+using PlaneChannels = std::vector<std::optional<std::size_t>>;
+
+/// How a part is cut into blocks: chunks of scanlines, several where a chunk is one line, or rows
+/// of tiles. Blocks are numbered from the top.
+struct BlockGrid {
+    Window window;
+    int rows_per_block = 0;
+
+    [[nodiscard]] std::size_t block_count() const;
+    [[nodiscard]] int first_row(std::size_t block) const;
+    [[nodiscard]] int row_count(std::size_t block) const;
+};
+
+/// The grid of a part, decided by its compression and tiles.
+[[nodiscard]] Result<BlockGrid> block_grid(const ExrFile& file, std::size_t part);
+
+/// Decodes channels of one part into planar blocks: through OpenEXRCore's chunk pipeline, or through
+/// the C++ API where 3.1.5's Core is slower (PIZ), lacks the codec (DWA) or is not trusted (B44).
+/// Planes are samples as stored. Refuses deep parts, sub-sampled channels among the wanted, and
+/// blocks beyond our limits. The source keeps the file open.
+[[nodiscard]] Result<std::unique_ptr<BlockSource>> make_block_source(
+    std::shared_ptr<const ExrFile> file, std::size_t part, PlaneChannels planes);
+
+}  // namespace osio::exr

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <formats/exr/block_source.h>
+#include <formats/exr/exr_file.h>
+
+#include <osio/collapse/plan.h>
+#include <osio/collapse/stream.h>
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osio::exr {
+
+/// A file, the part of it that a request means, and the plan for its bands: everything that is
+/// decided before a pixel is read.
+struct CollapseJob {
+    std::shared_ptr<const ExrFile> file;
+    std::size_t part_index = 0;
+    CollapsePlan plan;
+    std::optional<std::size_t> alpha;   ///< channel that passes through
+    std::vector<std::string> warnings;  ///< of the layout and of the plan
+
+    [[nodiscard]] const ExrPart& part() const { return file->parts()[part_index]; }
+
+    /// Names of the result's channels, alpha last.
+    [[nodiscard]] std::vector<std::string> channel_names() const;
+
+    /// The bands that the plan needs, then alpha.
+    [[nodiscard]] Result<std::unique_ptr<BlockSource>> open_source() const;
+};
+
+/// Opens the file, chooses the set and makes the plan; every refusal comes from here.
+[[nodiscard]] Result<CollapseJob> open_collapse(const std::string& path,
+                                                const CollapseRequest& request,
+                                                const TextLoader& load_text);
+
+/// The same for a file that is open already.
+[[nodiscard]] Result<CollapseJob> prepare_collapse(std::shared_ptr<const ExrFile> file,
+                                                   const CollapseRequest& request,
+                                                   const TextLoader& load_text);
+
+}  // namespace osio::exr

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <formats/exr/exr_file.h>
+
+#include <osio/base/text.h>
+#include <osio/layout/dialect.h>
+
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfMultiPartInputFile.h>
+#include <OpenEXR/ImfPartType.h>
+#include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/openexr_base.h>
+#include <OpenEXR/openexr_part.h>
+#include <OpenEXR/openexr_std_attr.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <sys/stat.h>
+#include <utility>
+
+namespace osio::exr {
+
+namespace {
+
+/// OpenEXRCore reports errors on the thread that met them.
+thread_local std::string t_core_message;
+
+void keep_core_message(exr_const_context_t, exr_result_t, const char* message) {
+    t_core_message = message;
+}
+
+constexpr std::array<std::pair<std::string_view, Imf::Compression>, 10> kCompressions{{
+    {"none", Imf::NO_COMPRESSION}, {"rle", Imf::RLE_COMPRESSION}, {"zips", Imf::ZIPS_COMPRESSION},
+    {"zip", Imf::ZIP_COMPRESSION}, {"piz", Imf::PIZ_COMPRESSION}, {"pxr24", Imf::PXR24_COMPRESSION},
+    {"b44", Imf::B44_COMPRESSION}, {"b44a", Imf::B44A_COMPRESSION}, {"dwaa", Imf::DWAA_COMPRESSION},
+    {"dwab", Imf::DWAB_COMPRESSION},
+}};
+
+/// The size of a readable regular OpenEXR file.
+Result<std::uint64_t> check_file(const std::string& path) {
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0)
+        return fail(ErrorCode::Io, std::strerror(errno), path);
+    if (S_ISDIR(status.st_mode))
+        return fail(ErrorCode::Io, "is a folder, expected an OpenEXR file", path);
+    std::ifstream in(path, std::ios::binary);
+    if (!in)
+        return fail(ErrorCode::Io, std::strerror(errno), path);
+    if (!starts_like_exr(path))
+        return fail(ErrorCode::NotSpectral,
+                    "is no OpenEXR file (its first bytes are not 76 2F 31 01)", path);
+    return static_cast<std::uint64_t>(status.st_size);
+}
+
+Window window_of(const Imath::Box2i& box) {
+    return {box.min.x, box.min.y, box.max.x, box.max.y};
+}
+
+/// Width and height as differences that do not overflow an int.
+bool plausible(const Imath::Box2i& box) {
+    const auto width = std::int64_t{box.max.x} - box.min.x + 1;
+    const auto height = std::int64_t{box.max.y} - box.min.y + 1;
+    return width > 0 && height > 0 && width < INT32_MAX && height < INT32_MAX;
+}
+
+Result<void> read_channels(const exr_attr_chlist_t& list, ExrPart& part) {
+    if (list.num_channels < 0 || static_cast<std::size_t>(list.num_channels) > kMostChannels)
+        return fail(ErrorCode::Damaged, std::to_string(list.num_channels) +
+                                            " channels, more than the limit of " +
+                                            std::to_string(kMostChannels));
+    std::size_t known = 0;
+    for (auto c = part.header.channels().begin(); c != part.header.channels().end(); ++c)
+        ++known;
+    for (int i = 0; i < list.num_channels; ++i) {
+        const exr_attr_chlist_entry_t& entry = list.entries[i];
+        const SampleType type = entry.pixel_type == EXR_PIXEL_HALF    ? SampleType::Half
+                                : entry.pixel_type == EXR_PIXEL_FLOAT ? SampleType::Float
+                                                                      : SampleType::Uint;
+        part.channels.push_back({entry.name.str, type, entry.x_sampling != 1 || entry.y_sampling != 1});
+    }
+    if (known != part.channels.size())
+        return fail(ErrorCode::Damaged, "two channels have the same name");
+    return {};
+}
+
+void warn_of_dialect(ExrPart& part) {
+    const auto dialect =
+        recognise_dialect(part.layout.channel_names, part.summary().attribute_names);
+    if (dialect)
+        part.layout.warnings.push_back("found " + *dialect + ": a dialect that is not read yet");
+}
+
+TextAttributes text_attributes(const Imf::Header& header) {
+    TextAttributes out;
+    for (auto a = header.begin(); a != header.end(); ++a)
+        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
+            out.emplace(a.name(), text->value());
+    return out;
+}
+
+}  // namespace
+
+std::string ExrPart::compression() const {
+    return compression_name(header.compression());
+}
+
+PartSummary ExrPart::summary() const {
+    PartSummary out{name, &layout, {}, deep, {}};
+    for (auto a = header.begin(); a != header.end(); ++a)
+        out.attribute_names.emplace_back(a.name());
+    for (const ExrChannel& channel : channels)
+        out.subsampled.push_back(channel.subsampled);
+    return out;
+}
+
+ExrFile::~ExrFile() {
+    if (m_context != nullptr)
+        exr_finish(&m_context);
+}
+
+Result<std::shared_ptr<const ExrFile>> ExrFile::open(const std::string& path) {
+    OSIO_TRY(const std::uint64_t bytes, check_file(path));
+    const std::shared_ptr<ExrFile> file(new ExrFile(path));
+    exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
+    init.error_handler_fn = keep_core_message;
+    const exr_result_t code = exr_start_read(&file->m_context, path.c_str(), &init);
+    if (code != EXR_ERR_SUCCESS) {
+        file->m_context = nullptr;
+        return core_failure(code, path);
+    }
+    if (auto result = file->read_headers(bytes); !result)
+        return fail_within(path, std::move(result).error());
+    return file;
+}
+
+Result<void> ExrFile::read_headers(std::uint64_t file_bytes) {
+    int count = 0;
+    exr_get_count(m_context, &count);
+    for (int i = 0; i < count; ++i) {
+        int32_t chunks = 0;
+        const exr_result_t code = exr_get_chunk_count(m_context, i, &chunks);
+        if (code != EXR_ERR_SUCCESS)
+            return core_failure(code, {});
+        // Each chunk has 8 bytes in the offset table.
+        if (static_cast<std::uint64_t>(chunks) * 8 > file_bytes)
+            return fail(ErrorCode::Damaged, "the header promises " + std::to_string(chunks) +
+                                                " chunks, more than " + std::to_string(file_bytes) +
+                                                " bytes can hold; the file is cut short or damaged");
+        uint64_t chunk_bytes = 0;
+        exr_get_chunk_unpacked_size(m_context, i, &chunk_bytes);
+        if (chunk_bytes > kMostChunkBytes)
+            return fail(ErrorCode::Damaged, "a chunk of " + std::to_string(chunk_bytes) +
+                                                " bytes, more than the limit of " +
+                                                std::to_string(kMostChunkBytes));
+    }
+    try {
+        // 0: no threads of OpenEXR's global pool, which belongs to the host.
+        Imf::MultiPartInputFile file(m_path.c_str(), 0, false);
+        if (file.parts() != count)
+            return fail(ErrorCode::Damaged, "the number of parts is ambiguous");
+        for (int i = 0; i < count; ++i) {
+            ExrPart part;
+            part.header = file.header(i);
+            if (!plausible(part.header.dataWindow()) || !plausible(part.header.displayWindow()))
+                return fail(ErrorCode::Damaged, "the data or display window is empty or too large");
+            part.name = part.header.hasName() ? part.header.name() : std::string();
+            part.data_window = window_of(part.header.dataWindow());
+            part.display_window = window_of(part.header.displayWindow());
+            part.deep = part.header.hasType() && Imf::isDeepData(part.header.type());
+            exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
+            exr_get_storage(m_context, i, &storage);
+            part.tiled = storage == EXR_STORAGE_TILED || storage == EXR_STORAGE_DEEP_TILED;
+            const exr_attr_chlist_t* channels = nullptr;
+            if (const auto code = exr_get_channels(m_context, i, &channels);
+                code != EXR_ERR_SUCCESS || channels == nullptr)
+                return core_failure(code, {});
+            OSIO_CHECK_OK(read_channels(*channels, part));
+            std::vector<std::string> names;
+            for (const ExrChannel& channel : part.channels)
+                names.push_back(channel.name);
+            part.layout = parse_channel_layout(names, DecimalMark::Comma);
+            if (part.layout.sets.empty())
+                warn_of_dialect(part);
+            part.metadata = read_spectral_metadata(part.layout, text_attributes(part.header));
+            m_parts.push_back(std::move(part));
+        }
+    } catch (const std::bad_alloc&) {
+        return fail(ErrorCode::Io, "out of memory");
+    } catch (const std::exception& error) {
+        return fail(ErrorCode::Damaged, error.what());
+    }
+    return {};
+}
+
+std::vector<PartSummary> ExrFile::summaries() const {
+    std::vector<PartSummary> out;
+    for (const ExrPart& part : m_parts)
+        out.push_back(part.summary());
+    return out;
+}
+
+bool starts_like_exr(const std::string& path) {
+    constexpr std::array<char, 4> kMagic{0x76, 0x2f, 0x31, 0x01};
+    std::array<char, 4> head{};
+    std::ifstream in(path, std::ios::binary);
+    in.read(head.data(), head.size());
+    return in.gcount() == static_cast<std::streamsize>(head.size()) && head == kMagic;
+}
+
+tl::unexpected<Error> core_failure(exr_result_t code, const std::string& path) {
+    std::string message = std::exchange(t_core_message, {});
+    if (message.empty())
+        message = exr_get_default_error_message(code);
+    // Core prefixes the path; so does whoever adds `where`.
+    if (!path.empty() && message.starts_with("'" + path + "': "))
+        message.erase(0, path.size() + 4);
+    const bool system = code == EXR_ERR_FILE_ACCESS || code == EXR_ERR_OUT_OF_MEMORY;
+    return fail(system ? ErrorCode::Io : ErrorCode::Damaged, message, path);
+}
+
+std::string compression_name(Imf::Compression compression) {
+    for (const auto& [name, known] : kCompressions)
+        if (known == compression)
+            return std::string(name);
+    return "unknown";
+}
+
+Result<Imf::Compression> find_compression(std::string_view name) {
+    std::vector<std::string> known;
+    for (const auto& [word, compression] : kCompressions) {
+        if (iequals(word, name))
+            return compression;
+        known.emplace_back(word);
+    }
+    return fail(ErrorCode::UnknownName,
+                "no compression is called \"" + std::string(name) + "\"" + suggestion(name, known));
+}
+
+}  // namespace osio::exr

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <formats/exr/output_header.h>
+
+#include <osio/base/text.h>
+
+#include <OpenEXR/ImfChromaticitiesAttribute.h>
+#include <OpenEXR/ImfStringAttribute.h>
+
+#include <algorithm>
+#include <array>
+
+namespace osio::exr {
+
+namespace {
+
+Imath::V2f v2f(const Chromaticity& c) {
+    return {static_cast<float>(c.x), static_cast<float>(c.y)};
+}
+
+/// Attributes that describe what a collapse replaces.
+bool is_replaced(std::string_view name) {
+    constexpr std::array<std::string_view, 2> kOwn{attribute::kChromaticities, attribute::kColorSpace};
+    return std::find(kOwn.begin(), kOwn.end(), name) != kOwn.end() || name.starts_with("spectral:");
+}
+
+}  // namespace
+
+bool is_structural(std::string_view name) {
+    constexpr std::array<std::string_view, 12> kStructure{
+        "channels", "compression", "dataWindow", "displayWindow",      "lineOrder", "tiles",
+        "type",     "version",     "chunkCount", "maxSamplesPerPixel", "multiView", "dwaCompressionLevel"};
+    return std::find(kStructure.begin(), kStructure.end(), name) != kStructure.end();
+}
+
+Imf::Header collapsed_header(const CollapseJob& job) {
+    const ExrPart& part = job.part();
+    const CollapsePlan& plan = job.plan;
+    Imf::Header out(part.header.displayWindow(), part.header.dataWindow());
+    for (auto a = part.header.begin(); a != part.header.end(); ++a)
+        if (!is_structural(a.name()) && !describes_bands(a.name()) && !is_replaced(a.name()))
+            out.insert(a.name(), a.attribute());
+    const OutputSpace& space = plan.space;
+    out.insert(attribute::kChromaticities,
+               Imf::ChromaticitiesAttribute(Imf::Chromaticities(
+                   v2f(space.red), v2f(space.green), v2f(space.blue), v2f(space.white))));
+    if (!space.color_space.empty())
+        out.insert(attribute::kColorSpace, Imf::StringAttribute(std::string(space.color_space)));
+    out.insert(attribute::kRecipe, Imf::StringAttribute(recipe_text(plan.request)));
+    out.insert(attribute::kPlan, Imf::StringAttribute(plan.id));
+    if (!job.warnings.empty())
+        out.insert(attribute::kWarnings, Imf::StringAttribute(join(job.warnings, "\n")));
+    out.compression() = Imf::ZIP_COMPRESSION;
+    return out;
+}
+
+}  // namespace osio::exr

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <osio/base/result.h>
+#include <osio/collapse/plan.h>
+
+#include <string>
+#include <string_view>
+
+namespace osio::files {
+
+/// The most text that is read from one file: a table of a light at 0.01 nm takes 2 MB.
+inline constexpr std::size_t kMostTextBytes = std::size_t{1} << 24;
+
+/// The whole of a text file. Io where the system refuses or the file exceeds kMostTextBytes.
+[[nodiscard]] Result<std::string> read_text(const std::string& path);
+
+/// `path` as seen from `folder`: absolute paths stay, an empty folder is the current one.
+[[nodiscard]] std::string seen_from(const std::string& folder, std::string_view path);
+
+/// A loader for plans that reads files relative to `folder`.
+[[nodiscard]] TextLoader text_loader(std::string folder);
+
+/// The folder part of a path, empty where there is none.
+[[nodiscard]] std::string folder_of(const std::string& path);
+
+}  // namespace osio::files

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <plugins/common/open_options.h>
+
+#include <formats/exr/exr_file.h>
+#include <formats/files/text_file.h>
+
+#include <osio/base/text.h>
+
+#include <fstream>
+#include <vector>
+
+namespace osio::plugin {
+
+namespace {
+
+constexpr std::string_view kHintPrefix = "spectral:";
+constexpr std::string_view kSource = "source";
+
+bool has_extension(std::string_view name, std::string_view extension) {
+    return to_lower(name).ends_with(extension);
+}
+
+bool exists(const std::string& path) {
+    return std::ifstream(path).good();
+}
+
+/// A name cut at its first '?'.
+struct QueryName {
+    std::string base;
+    std::string_view query;
+};
+
+QueryName cut_query(const std::string& name) {
+    const auto mark = name.find('?');
+    return {name.substr(0, mark), std::string_view(name).substr(mark + 1)};
+}
+
+Result<void> apply_query(std::string_view query, CollapseRequest& request) {
+    for (const std::string_view option : split(query, '&')) {
+        const auto equals = option.find('=');
+        if (equals == std::string_view::npos)
+            return fail(ErrorCode::Usage, "found \"" + std::string(option) +
+                                              "\" in the query, expected key=value");
+        OSIO_CHECK_OK(set_option(request, option.substr(0, equals), option.substr(equals + 1)));
+    }
+    return {};
+}
+
+/// A '#' starts a comment at the start of a line or after white space; inside a word it is a letter.
+std::string_view without_comment(std::string_view line) {
+    for (std::size_t i = 0; i < line.size(); ++i)
+        if (line[i] == '#' && (i == 0 || line[i - 1] == ' ' || line[i - 1] == '\t'))
+            return line.substr(0, i);
+    return line;
+}
+
+/// Hints arrive as text, int or float, by how they look; they are read by value, not by type.
+Result<void> apply_hints(const OIIO::ImageSpec& config, CollapseRequest& request) {
+    for (const OIIO::ParamValue& hint : config.extra_attribs) {
+        const std::string name = hint.name().string();
+        if (name.starts_with(kHintPrefix))
+            OSIO_CHECK_OK(set_option(request, name.substr(kHintPrefix.size()), hint.get_string()));
+    }
+    return {};
+}
+
+}  // namespace
+
+NameKind kind_of(const std::string& name) {
+    if (name.find('?') != std::string::npos && !exists(name))
+        return NameKind::Query;
+    if (has_extension(name, ".spectral"))
+        return NameKind::Recipe;
+    return has_extension(name, ".spexr") ? NameKind::Own : NameKind::Other;
+}
+
+Result<OpenRequest> read_recipe(const std::string& path) {
+    OSIO_TRY(const std::string text, files::read_text(path));
+    const std::string folder = files::folder_of(path);
+    OpenRequest out;
+    int number = 0;
+    for (const std::string_view raw : split(text, '\n')) {
+        ++number;
+        const std::string_view line = trim(without_comment(raw));
+        if (line.empty())
+            continue;
+        const std::string where = path + ": line " + std::to_string(number);
+        const auto equals = line.find('=');
+        if (equals == std::string_view::npos)
+            return fail(ErrorCode::Usage,
+                        "found \"" + std::string(line.substr(0, 60)) + "\", expected key = value",
+                        where);
+        const std::string_view key = trim(line.substr(0, equals));
+        std::string value(trim(line.substr(equals + 1)));
+        if (key == kSource) {
+            out.path = files::seen_from(folder, value);
+            continue;
+        }
+        if ((key == "illuminant" || key == "white") && is_table_path(value))
+            value = files::seen_from(folder, value);
+        if (auto result = set_option(out.request, key, value); !result)
+            return fail_in(where, std::move(result).error());
+    }
+    if (out.path.empty())
+        return fail(ErrorCode::Usage, "a recipe needs a line source = FILE.exr", path);
+    return out;
+}
+
+Result<OpenRequest> resolve_open(const std::string& name, const OIIO::ImageSpec* config) {
+    QueryName cut{name, {}};
+    const bool query = kind_of(name) == NameKind::Query;
+    if (query)
+        cut = cut_query(name);
+    OpenRequest out{cut.base, {}};
+    if (has_extension(cut.base, ".spectral")) {
+        OSIO_TRY(out, read_recipe(cut.base));
+    }
+    if (config != nullptr)
+        OSIO_CHECK_OK(apply_hints(*config, out.request));
+    if (query)
+        OSIO_CHECK_OK(apply_query(cut.query, out.request));
+    return out;
+}
+
+bool names_our_file(const std::string& name) {
+    const NameKind kind = kind_of(name);
+    if (kind == NameKind::Other)
+        return false;
+    const std::string base = kind == NameKind::Query ? cut_query(name).base : name;
+    if (!has_extension(base, ".spectral"))
+        return exr::starts_like_exr(base);
+    const auto recipe = read_recipe(base);
+    return recipe && exr::starts_like_exr(recipe->path);
+}
+
+bool has_spectral_hint(const OIIO::ImageSpec& config) {
+    for (const OIIO::ParamValue& hint : config.extra_attribs)
+        if (hint.name().string().starts_with(kHintPrefix))
+            return true;
+    return false;
+}
+
+}  // namespace osio::plugin

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <plugins/spectralexr.imageio/subimage.h>
+
+#include <plugins/common/exr_metadata.h>
+#include <plugins/spectralexr.imageio/preview_samples.h>
+#include <plugins/spectralexr.imageio/spec.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+namespace osio::plugin {
+
+namespace {
+
+OIIO::TypeDesc type_of(SampleType type) {
+    switch (type) {
+    case SampleType::Half: return OIIO::TypeHalf;
+    case SampleType::Float: return OIIO::TypeFloat;
+    case SampleType::Uint: break;
+    }
+    return OIIO::TypeUInt32;
+}
+
+/// Copies a plane into every `stride`-th place; Sample has the size of a sample.
+template <class Sample>
+void interleave(const std::byte* plane, std::size_t count, std::byte* out, std::size_t stride) {
+    for (std::size_t i = 0; i < count; ++i, plane += sizeof(Sample), out += stride)
+        std::memcpy(out, plane, sizeof(Sample));
+}
+
+/// Puts blocks where the host wants them; blocks do not overlap, so workers need no order.
+class Interleaver final : public BlockVisitor {
+  public:
+    Interleaver(RowRange rows, std::size_t width, std::size_t pixel_bytes, std::byte* out)
+        : m_rows(rows), m_width(width), m_pixel_bytes(pixel_bytes), m_out(out) {}
+
+    void process(const PlanarBlock& block) override {
+        const int first = std::max(m_rows.first, block.first_row);
+        const int last = std::min(m_rows.last, block.first_row + block.row_count - 1);
+        const std::size_t skip = static_cast<std::size_t>(first - block.first_row) * m_width;
+        const std::size_t count = static_cast<std::size_t>(last - first + 1) * m_width;
+        std::byte* out =
+            m_out + static_cast<std::size_t>(first - m_rows.first) * m_width * m_pixel_bytes;
+        for (const BandView& plane : block.planes) {
+            const std::byte* from = plane.advanced(skip).data;
+            if (plane.type == SampleType::Half)
+                interleave<std::uint16_t>(from, count, out, m_pixel_bytes);
+            else
+                interleave<std::uint32_t>(from, count, out, m_pixel_bytes);
+            out += sample_bytes(plane.type);
+        }
+    }
+
+    [[nodiscard]] Result<void> deliver(const PlanarBlock&) override { return {}; }
+
+  private:
+    RowRange m_rows;
+    std::size_t m_width;
+    std::size_t m_pixel_bytes;
+    std::byte* m_out;
+};
+
+class RawSubimage final : public Subimage {
+  public:
+    using Subimage::Subimage;
+
+    [[nodiscard]] Result<void> read_rows(RowRange rows, std::byte* out, Runner& runner) override {
+        const auto width = static_cast<std::size_t>(spec().width);
+        const std::size_t pixel_bytes = spec().pixel_bytes(true);
+        const auto start = [&] {
+            return std::make_unique<Interleaver>(rows, width, pixel_bytes, out);
+        };
+        return visit_blocks(source(), rows, runner, start, {});
+    }
+};
+
+}  // namespace
+
+Result<std::unique_ptr<Subimage>> make_raw_subimage(std::shared_ptr<const exr::ExrFile> file,
+                                                    std::size_t part, BandNames names,
+                                                    int subimage_count) {
+    const exr::ExrPart& header = file->parts()[part];
+    OIIO::ImageSpec spec = spec_of_windows(header);
+    exr::PlaneChannels planes;
+    spec.channelnames.clear();
+    for (const PresentedChannel& channel : present_channels(header.layout, names)) {
+        const OIIO::TypeDesc type = type_of(header.channels[channel.channel].type);
+        if (channel.name == "A")
+            spec.alpha_channel = static_cast<int>(planes.size());
+        if (channel.name == "Z")
+            spec.z_channel = static_cast<int>(planes.size());
+        spec.channelnames.push_back(channel.name);
+        spec.channelformats.push_back(type);
+        spec.format = OIIO::TypeDesc::basetype_merge(spec.format, type);
+        planes.emplace_back(channel.channel);
+    }
+    spec.nchannels = static_cast<int>(planes.size());
+    const auto& formats = spec.channelformats;
+    if (std::all_of(formats.begin(), formats.end(), [&](auto t) { return t == formats[0]; }))
+        spec.channelformats.clear();
+    add_metadata(header.header, spec);
+    spec.attribute("oiio:ColorSpace", "Linear");
+    spec.attribute("oiio:subimages", subimage_count);
+    spec.attribute("compression", header.compression());
+    if (PreviewChannels::find(header.layout)) {
+        spec.attribute(kSourceAttribute, file->path());
+        spec.attribute(kSourcePartAttribute, static_cast<int>(part));
+    }
+    OSIO_TRY(auto source, exr::make_block_source(std::move(file), part, std::move(planes)));
+    return std::make_unique<RawSubimage>(std::move(spec), std::move(source));
+}
+
+}  // namespace osio::plugin

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <formats/exr/exr_file.h>
+
+#include <OpenImageIO/imageio.h>
+
+namespace osio::plugin {
+
+/// A spec with the part's data and display window and nothing else decided: no channels, scanlines.
+[[nodiscard]] inline OIIO::ImageSpec spec_of_windows(const exr::ExrPart& part) {
+    OIIO::ImageSpec spec;
+    spec.x = part.data_window.min_x;
+    spec.y = part.data_window.min_y;
+    spec.width = part.data_window.width();
+    spec.height = part.data_window.height();
+    spec.full_x = part.display_window.min_x;
+    spec.full_y = part.display_window.min_y;
+    spec.full_width = part.display_window.width();
+    spec.full_height = part.display_window.height();
+    spec.depth = spec.full_depth = 1;
+    spec.format = OIIO::TypeUnknown;
+    return spec;
+}
+
+}  // namespace osio::plugin

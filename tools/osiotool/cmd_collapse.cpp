@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tools/osiotool/commands.h>
+#include <tools/osiotool/host_loader.h>
+#include <tools/osiotool/progress_bar.h>
+#include <tools/osiotool/report.h>
+#include <tools/osiotool/request_words.h>
+#include <tools/osiotool/thread_runner.h>
+
+#include <formats/exr/exr_writer.h>
+#include <formats/exr/output_header.h>
+#include <formats/files/text_file.h>
+
+#include <osio/base/text.h>
+
+#include <OpenEXR/ImfThreading.h>
+
+#include <array>
+#include <chrono>
+#include <fmt/format.h>
+
+namespace osio::tool {
+
+namespace {
+
+using host::StoredType;
+
+constexpr std::array<std::pair<std::string_view, StoredType>, 4> kDepths{
+    {{"half", StoredType::Half},
+     {"float", StoredType::Float},
+     {"uint8", StoredType::Uint8},
+     {"uint16", StoredType::Uint16}}};
+
+std::string_view depth_name(StoredType type) {
+    for (const auto& [name, known] : kDepths)
+        if (known == type)
+            return name;
+    return {};
+}
+
+bool is_exr(std::string_view path) {
+    return to_lower(path).ends_with(".exr");
+}
+
+bool is_integer(StoredType type) {
+    return type == StoredType::Uint8 || type == StoredType::Uint16;
+}
+
+/// The depth that was asked for, else float for linear values and EXR, 8 bits for encoded ones.
+Result<StoredType> choose_depth(const CollapseOptions& options, const OutputSpace& space) {
+    StoredType type = StoredType::Float;
+    if (options.depth.empty()) {
+        const bool encoded = space.transfer != Transfer::Linear;
+        type = !is_exr(options.output) && encoded ? StoredType::Uint8 : StoredType::Float;
+    } else {
+        std::vector<std::string> names;
+        bool found = false;
+        for (const auto& [name, known] : kDepths) {
+            names.emplace_back(name);
+            if (iequals(name, options.depth)) {
+                type = known;
+                found = true;
+            }
+        }
+        if (!found)
+            return fail(ErrorCode::UnknownName, "there is no depth \"" + options.depth + "\"" +
+                                                    suggestion(options.depth, names));
+    }
+    if (is_integer(type) && is_exr(options.output))
+        return fail(ErrorCode::Usage, "an .exr stores half or float, not " +
+                                          std::string(depth_name(type)));
+    if (is_integer(type) && space.transfer == Transfer::Linear && !options.raw)
+        return fail(ErrorCode::Usage,
+                    std::string(space.id) + " is linear, and " + std::string(depth_name(type)) +
+                        " has too few steps for it in the shadows; use --to srgb, -d half, or --raw "
+                        "to do it all the same");
+    return type;
+}
+
+/// Where the rows go, and what is known when they are there.
+struct Output {
+    std::unique_ptr<RowSink> sink;
+    std::function<Result<void>(CollapseOutcome&)> finish;
+};
+
+Result<Output> open_exr(const CollapseOptions& options, const exr::CollapseJob& job,
+                        Imf::Header header, StoredType type) {
+    if (!options.compression.empty()) {
+        OSIO_TRY(header.compression(), exr::find_compression(options.compression));
+    }
+    const SampleType sample = type == StoredType::Half ? SampleType::Half : SampleType::Float;
+    std::vector<exr::OutputChannel> channels;
+    for (const std::string& name : job.channel_names())
+        channels.push_back({name, sample});
+    OSIO_TRY(auto writer, exr::ExrWriter::create(options.output, std::move(header), channels));
+    auto sink = std::make_unique<exr::ExrSink>(std::move(writer), sample,
+                                               job.part().data_window.width());
+    auto* const exr = sink.get();
+    return Output{std::move(sink), [exr](CollapseOutcome& outcome) {
+                      outcome.clamped_samples = exr->clamped_count();
+                      return exr->finish();
+                  }};
+}
+
+Result<Output> open_other(const CollapseOptions& options, const exr::CollapseJob& job,
+                          const Imf::Header& header, StoredType type) {
+    if (!options.compression.empty())
+        return fail(ErrorCode::Usage, "--compression is for .exr output");
+    OSIO_TRY(const host::HostModule* const module, load_host_module());
+    OSIO_TRY(auto sink, module->open_sink({options.output, type, job.channel_names(), &header}));
+    auto* const other = sink.get();
+    return Output{std::move(sink), [other](CollapseOutcome& outcome) {
+                      outcome.clipped_pixels = other->clipped_pixels();
+                      return other->finish();
+                  }};
+}
+
+}  // namespace
+
+Result<ExitCode> run_collapse(const CollapseOptions& options) {
+    const auto started = std::chrono::steady_clock::now();
+    OSIO_TRY(const CollapseRequest request, request_of(options.request));
+    OSIO_TRY(const exr::CollapseJob job,
+             exr::open_collapse(options.input, request, files::text_loader({})));
+    OSIO_TRY(const StoredType type, choose_depth(options, job.plan.space));
+    OSIO_TRY(const auto source, job.open_source());
+
+    ThreadRunner runner(options.threads);
+    Imf::setGlobalThreadCount(static_cast<int>(runner.worker_count()));
+    catch_interrupts();
+    const Imf::Header header = exr::collapsed_header(job);
+    OSIO_TRY(const Output output, is_exr(options.output) ? open_exr(options, job, header, type)
+                                                         : open_other(options, job, header, type));
+
+    CollapseOutcome outcome;
+    outcome.output = options.output;
+    outcome.type = depth_name(type);
+    const exr::Window& window = job.part().data_window;
+    {
+        ProgressBar bar(options.output, !options.quiet);
+        OSIO_TRY(outcome.counts,
+                 collapse_stream(*source, job.plan, job.alpha.has_value(),
+                                 {window.min_y, window.max_y}, *output.sink, runner, std::ref(bar)));
+    }
+    OSIO_CHECK_OK(output.finish(outcome));
+    outcome.seconds =
+        std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+
+    if (!options.quiet) {
+        for (const std::string& warning : job.warnings)
+            fmt::print(stderr, "warning: {}\n", warning);
+        fmt::print(stderr, "{}", outcome_text(job, outcome));
+    }
+    if (options.json)
+        fmt::print("{}", outcome_json(job, outcome));
+    return kDone;
+}
+
+}  // namespace osio::tool

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tools/osiotool/commands.h>
+#include <tools/osiotool/text_table.h>
+
+#include <osio/base/text.h>
+#include <osio/collapse/request.h>
+#include <osio/colour/illuminant.h>
+#include <osio/colour/observer.h>
+#include <osio/colour/rgb_space.h>
+
+#include <algorithm>
+#include <array>
+#include <fmt/format.h>
+
+namespace osio::tool {
+
+namespace {
+
+TextTable illuminants() {
+    TextTable table({{"illuminant"}, {"source"}});
+    for (const std::string& name : illuminant_names())
+        table.add({name, find_illuminant(name)->source});
+    return table;
+}
+
+TextTable observers() {
+    TextTable table({{"observer"}, {"source"}});
+    for (const std::string& name : observer_names())
+        table.add({name, find_observer(name)->source});
+    return table;
+}
+
+TextTable spaces() {
+    TextTable table({{"space"}, {"oiio:ColorSpace"}, {"also called"}});
+    for (const OutputSpace& space : output_spaces()) {
+        std::string aliases(space.aliases);
+        for (auto at = aliases.find('|'); at != std::string::npos; at = aliases.find('|', at))
+            aliases.replace(at, 1, ", ");
+        table.add({std::string(space.id),
+                   space.color_space.empty() ? "none" : std::string(space.color_space), aliases});
+    }
+    return table;
+}
+
+TextTable bases() {
+    TextTable table({{"basis"}, {"meaning"}});
+    table.add({std::string(basis_name(Basis::Linear)),
+               "straight lines between band samples, summed at 1 nm"});
+    return table;
+}
+
+struct List {
+    std::string_view name;
+    TextTable (*make)();
+};
+
+constexpr std::array<List, 4> kLists{{{"illuminants", illuminants},
+                                      {"observers", observers},
+                                      {"spaces", spaces},
+                                      {"bases", bases}}};
+
+}  // namespace
+
+Result<ExitCode> run_list(const ListOptions& options) {
+    std::vector<std::string> names;
+    for (const List& list : kLists) {
+        names.emplace_back(list.name);
+        if (list.name != options.what)
+            continue;
+        fmt::print("{}", list.make().text());
+        return kDone;
+    }
+    return fail(ErrorCode::UnknownName,
+                "there is no list of \"" + options.what + "\"" + suggestion(options.what, names));
+}
+
+}  // namespace osio::tool

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tools/osiotool/exit_code.h>
+
+#include <osio/base/result.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+/// One function for each subcommand, in a file of its own. Each returns the process's exit code;
+/// results go to stdout, everything else to stderr.
+namespace osio::tool {
+
+/// Options as they were given: the request's own words and their values.
+using RequestWords = std::vector<std::pair<std::string, std::string>>;
+
+struct InfoOptions {
+    std::string input;
+    bool json = false;
+};
+
+struct PlanOptions {
+    std::string input;
+    RequestWords request;
+    bool json = false;
+};
+
+struct CollapseOptions {
+    std::string input;
+    std::string output;
+    RequestWords request;
+    std::string depth;        ///< half, float, uint8, uint16; empty: what suits the output
+    std::string compression;  ///< of EXR output; empty: zip
+    unsigned threads = 0;
+    bool raw = false;         ///< linear values into integers are wanted
+    bool quiet = false;
+    bool json = false;
+};
+
+struct ListOptions {
+    std::string what;  ///< illuminants, observers, spaces, bases
+};
+
+[[nodiscard]] Result<ExitCode> run_info(const InfoOptions& options);
+[[nodiscard]] Result<ExitCode> run_plan(const PlanOptions& options);
+[[nodiscard]] Result<ExitCode> run_collapse(const CollapseOptions& options);
+[[nodiscard]] Result<ExitCode> run_list(const ListOptions& options);
+[[nodiscard]] Result<ExitCode> run_doctor();
+
+}  // namespace osio::tool

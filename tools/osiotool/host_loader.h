@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tools/host_module/host_module.h>
+
+#include <string>
+
+namespace osio::tool {
+
+/// The module that speaks to OpenImageIO, opened on first use and kept. Io with the loader's reason
+/// where OpenImageIO is not installed.
+[[nodiscard]] Result<const host::HostModule*> load_host_module();
+
+/// The folder of this installation that holds the plugins for OpenImageIO.
+[[nodiscard]] std::string plugin_folder();
+
+}  // namespace osio::tool

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The command line: words to options, options to a command, its result to an exit code. The only
+// file that includes CLI11.
+#include <tools/osiotool/commands.h>
+
+#include <osio/base/text.h>
+#include <osio/collapse/request.h>
+
+#include <CLI/CLI.hpp>
+#include <OpenEXR/OpenEXRConfig.h>
+#include <exception>
+#include <fmt/format.h>
+#include <functional>
+
+namespace osio::tool {
+
+namespace {
+
+/// One option for each word of a request, so that the command line and queries never differ.
+void add_request_options(CLI::App& command, RequestWords& words) {
+    for (const RequestOption& option : request_options()) {
+        const std::string key(option.key);
+        command
+            .add_option_function<std::string>(
+                "--" + key, [&words, key](const std::string& value) { words.emplace_back(key, value); },
+                std::string(option.help))
+            ->type_name(std::string(option.value))
+            ->group("Colour");
+    }
+}
+
+/// A command and what runs it.
+using Run = std::function<Result<ExitCode>()>;
+
+class CommandLine {
+  public:
+    CommandLine() : m_app("Multispectral EXR: information, and collapse to colour.", "osiotool") {
+        m_app.set_version_flag("--version", fmt::format("osiotool {} (OpenEXR {})", OSIO_VERSION,
+                                                        OPENEXR_VERSION_STRING));
+        m_app.require_subcommand(1);
+        m_app.footer("Exit codes: 0 done, 1 the request does not fit the file, 2 usage or unknown "
+                     "name, 4 input damaged or not spectral, 5 the system refused, 130 interrupted.");
+        add_info();
+        add_collapse();
+        add_plan();
+        add_list();
+        add("doctor", "tell whether OpenImageIO sees our plugins, and if not, why",
+            [] { return run_doctor(); });
+    }
+
+    int main(int argc, char** argv) {
+        if (argc == 1) {
+            fmt::print("{}", m_app.help());
+            return kUsage;
+        }
+        try {
+            m_app.parse(argc, argv);
+        } catch (const CLI::Success& success) {
+            return m_app.exit(success);  // --help, --version
+        } catch (const CLI::ParseError& error) {
+            return complain(error.what() + hint(argc, argv));
+        }
+        const auto result = m_run();
+        if (!result)
+            return complain(result.error().text(), exit_code(result.error().code));
+        return *result;
+    }
+
+  private:
+    static int complain(const std::string& text, int code = kUsage) {
+        fmt::print(stderr, "osiotool: {}\n", text);
+        return code;
+    }
+
+    CLI::App* add(const std::string& name, const std::string& help, Run run) {
+        CLI::App* const command = m_app.add_subcommand(name, help);
+        command->callback([this, run = std::move(run)] { m_run = run; });
+        return command;
+    }
+
+    void add_info() {
+        CLI::App* const command = add("info", "what a file holds: parts, bands, units, warnings",
+                                      [this] { return run_info(m_info); });
+        command->add_option("file", m_info.input, "OpenEXR file")->required();
+        command->add_flag("--json", m_info.json, "as JSON");
+    }
+
+    void add_collapse() {
+        CLI::App* const command = add("collapse", "bands to a colour image",
+                                      [this] { return run_collapse(m_collapse); });
+        command->add_option("input", m_collapse.input, "spectral OpenEXR file")->required();
+        command->add_option("output", m_collapse.output, "image; .exr, .png, .tif, ...")->required();
+        add_request_options(*command, m_collapse.request);
+        command->add_option("-d", m_collapse.depth, "type of the output's samples")
+            ->type_name("half|float|uint8|uint16")
+            ->group("Output");
+        command->add_option("--compression", m_collapse.compression, "of .exr output; default zip")
+            ->type_name("C")
+            ->group("Output");
+        command->add_flag("--raw", m_collapse.raw, "allow linear values in integers")->group("Output");
+        command->add_option("--threads", m_collapse.threads, "default: one a processor")
+            ->type_name("N")
+            ->group("Output");
+        command->add_flag("--quiet", m_collapse.quiet, "no summary, no progress");
+        command->add_flag("--json", m_collapse.json, "a report on stdout as JSON");
+    }
+
+    void add_plan() {
+        CLI::App* const command = add("plan", "what a collapse would do: recipe, weights, provenance",
+                                      [this] { return run_plan(m_plan); });
+        command->add_option("input", m_plan.input, "spectral OpenEXR file")->required();
+        add_request_options(*command, m_plan.request);
+        command->add_flag("--json", m_plan.json, "as JSON");
+    }
+
+    void add_list() {
+        CLI::App* const command = add("list", "names that options take",
+                                      [this] { return run_list(m_list); });
+        command->add_option("what", m_list.what, "illuminants, observers, spaces or bases")->required();
+    }
+
+    /// The nearest subcommand or option to the first word that nobody knows.
+    [[nodiscard]] std::string hint(int argc, char** argv) const {
+        std::vector<std::string> commands;
+        const CLI::App* chosen = nullptr;
+        for (const CLI::App* command : m_app.get_subcommands({})) {
+            commands.push_back(command->get_name());
+            if (argc > 1 && command->get_name() == argv[1])
+                chosen = command;
+        }
+        if (chosen == nullptr)
+            return suggestion(argv[1], commands);
+        std::vector<std::string> options;
+        for (const CLI::Option* option : chosen->get_options())
+            options.push_back(option->get_name());
+        for (int i = 2; i < argc; ++i) {
+            const std::string word(argv[i]);
+            const std::string name = word.substr(0, word.find('='));
+            if (word.starts_with("-") && std::find(options.begin(), options.end(), name) == options.end())
+                if (const auto nearest = nearest_name(name, options))
+                    return "; did you mean \"" + *nearest + "\"?";
+        }
+        return "; see osiotool " + chosen->get_name() + " --help";
+    }
+
+    CLI::App m_app;
+    Run m_run;
+    InfoOptions m_info;
+    CollapseOptions m_collapse;
+    PlanOptions m_plan;
+    ListOptions m_list;
+};
+
+}  // namespace
+
+}  // namespace osio::tool
+
+int main(int argc, char** argv) {
+    try {
+        return osio::tool::CommandLine().main(argc, argv);
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "osiotool: {}\n", error.what());
+        return osio::tool::kSystem;
+    }
+}

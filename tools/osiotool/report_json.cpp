@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tools/osiotool/report.h>
+
+#include <nlohmann/json.hpp>
+
+namespace osio::tool {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kIndent = 2;
+
+Json window_json(const exr::Window& w) {
+    return {w.min_x, w.min_y, w.max_x, w.max_y};
+}
+
+Json optional_text(const std::optional<std::string>& text) {
+    return text ? Json(*text) : Json(nullptr);
+}
+
+Json set_json(const exr::ExrPart& part, const SpectralSet& set) {
+    Json channels = Json::array(), types = Json::array();
+    for (const Band& band : set.bands) {
+        channels.push_back(part.layout.channel_names[band.channel]);
+        types.push_back(sample_type_name(part.channels[band.channel].type));
+    }
+    Json out{{"name", set.name()},
+             {"bands", set.bands.size()},
+             {"quantity", quantity_name(set.quantity())},
+             {"wavelengths_nm", set.wavelengths_nm()},
+             {"spacing", spacing_text(set.wavelengths_nm())},
+             {"channels", std::move(channels)},
+             {"types", std::move(types)},
+             {"reradiation", set.reradiation.size()}};
+    out["units"] = set.quantity() == Quantity::Radiance ? optional_text(part.metadata.emissive_units)
+                                                        : Json(nullptr);
+    return out;
+}
+
+Json part_json(const exr::ExrPart& part) {
+    Json sets = Json::array(), others = Json::array(), warnings = Json::array();
+    for (const SpectralSet& set : part.layout.sets)
+        sets.push_back(set_json(part, set));
+    for (const std::size_t channel : part.layout.others)
+        others.push_back({{"name", part.layout.channel_names[channel]},
+                          {"type", sample_type_name(part.channels[channel].type)}});
+    for (const auto* list : {&part.layout.warnings, &part.metadata.warnings})
+        for (const std::string& warning : *list)
+            warnings.push_back(warning);
+    return {{"name", part.name},
+            {"width", part.data_window.width()},
+            {"height", part.data_window.height()},
+            {"data_window", window_json(part.data_window)},
+            {"display_window", window_json(part.display_window)},
+            {"storage", part.tiled ? "tiles" : "scanlines"},
+            {"deep", part.deep},
+            {"compression", part.compression()},
+            {"channels", part.channels.size()},
+            {"layout_version", optional_text(part.metadata.layout_version)},
+            {"sets", std::move(sets)},
+            {"other_channels", std::move(others)},
+            {"warnings", std::move(warnings)}};
+}
+
+Json plan_object(const exr::CollapseJob& job) {
+    const CollapsePlan& plan = job.plan;
+    Json weights = Json::array(), channels = Json::array();
+    for (std::size_t row = 0; row < plan.weights.rows(); ++row) {
+        const auto values = plan.weights.row(row);
+        weights.push_back(std::vector<double>(values.begin(), values.end()));
+    }
+    for (const Band& band : plan.bands)
+        channels.push_back(job.part().layout.channel_names[band.channel]);
+    const bool reflectance = plan.illuminant.has_value();
+    return {{"file", job.file->path()},
+            {"part", job.part_index},
+            {"set", plan.request.set},
+            {"quantity", reflectance ? "reflectance" : "radiance"},
+            {"to", plan.space.id},
+            {"color_space", plan.space.color_space.empty() ? Json(nullptr) : Json(plan.space.color_space)},
+            {"curve", plan.space.transfer == Transfer::Srgb ? "srgb" : "linear"},
+            {"observer", plan.observer.id},
+            {"observer_source", plan.observer.source},
+            {"illuminant", reflectance ? Json(plan.illuminant->id) : Json(nullptr)},
+            {"illuminant_source", reflectance ? Json(plan.illuminant->source) : Json(nullptr)},
+            {"basis", basis_name(plan.request.basis)},
+            {"quadrature", plan.quadrature == Quadrature::Sum1nm ? "sum1nm" : "exact"},
+            {"extrapolate", extrapolation_name(plan.request.extrapolation)},
+            {"exposure", plan.request.exposure_stops},
+            {"adapted_from", plan.adapted_from ? Json(*plan.adapted_from) : Json(nullptr)},
+            {"outputs", plan.outputs},
+            {"channel_names", job.channel_names()},
+            {"wavelengths_nm", plan.wavelengths_nm()},
+            {"channels", std::move(channels)},
+            {"weights", std::move(weights)},
+            {"extrapolated_share", plan.extrapolated_share},
+            {"recipe", recipe_text(plan.request)},
+            {"id", plan.id},
+            {"warnings", job.warnings}};
+}
+
+/// Text from files may hold bytes that are no UTF-8; they are replaced rather than refused.
+std::string dump(const Json& json) {
+    return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace
+
+std::string info_json(const exr::ExrFile& file) {
+    Json parts = Json::array();
+    for (const exr::ExrPart& part : file.parts())
+        parts.push_back(part_json(part));
+    return dump({{"file", file.path()}, {"parts", std::move(parts)}});
+}
+
+std::string plan_json(const exr::CollapseJob& job) {
+    return dump(plan_object(job));
+}
+
+std::string outcome_json(const exr::CollapseJob& job, const CollapseOutcome& outcome) {
+    return dump({{"input", job.file->path()},
+                 {"output", outcome.output},
+                 {"type", outcome.type},
+                 {"width", job.part().data_window.width()},
+                 {"height", job.part().data_window.height()},
+                 {"channel_names", job.channel_names()},
+                 {"pixels", outcome.counts.pixels},
+                 {"nan_pixels", outcome.counts.nan},
+                 {"infinite_pixels", outcome.counts.infinite},
+                 {"negative_pixels", outcome.counts.negative},
+                 {"clipped_pixels", outcome.clipped_pixels},
+                 {"clamped_samples", outcome.clamped_samples},
+                 {"seconds", outcome.seconds},
+                 {"recipe", recipe_text(job.plan.request)},
+                 {"id", job.plan.id},
+                 {"warnings", job.warnings}});
+}
+
+}  // namespace osio::tool

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tools/osiotool/report.h>
+
+#include <tools/osiotool/text_table.h>
+
+#include <osio/base/text.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <map>
+
+namespace osio::tool {
+
+namespace {
+
+/// Spacings that differ by less are the same: names are decimal, differences are binary.
+constexpr double kSameSpacingNm = 1e-6;
+
+/// Channels beyond this many are counted, not named.
+constexpr std::size_t kNamedChannels = 12;
+
+/// The pixel types of some channels: "float", or "half and float".
+template <class Channels, class IndexOf>
+std::string types_text(const exr::ExrPart& part, const Channels& channels, IndexOf index_of) {
+    std::vector<std::string> names;
+    for (const auto& channel : channels) {
+        const std::string name(sample_type_name(part.channels[index_of(channel)].type));
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            names.push_back(name);
+    }
+    return join(names, " and ");
+}
+
+std::string window_text(const exr::Window& w) {
+    return fmt::format("{},{} to {},{}", w.min_x, w.min_y, w.max_x, w.max_y);
+}
+
+std::string set_text(const exr::ExrPart& part, const SpectralSet& set) {
+    const auto of_band = [](const Band& band) { return band.channel; };
+    std::string out = fmt::format("  set {}: {}", set.name(), quantity_name(set.quantity()));
+    if (set.quantity() == Quantity::Radiance)
+        out += " in " + part.metadata.emissive_units.value_or("W.m^-2.sr^-1") + " per nm";
+    out += fmt::format(", {} band{}", set.bands.size(), set.bands.size() == 1 ? "" : "s");
+    if (!set.bands.empty())
+        out += ", " + spacing_text(set.wavelengths_nm()) + ", " +
+               types_text(part, set.bands, of_band);
+    if (!set.reradiation.empty())
+        out += fmt::format(", {} reradiation channels T.in.out", set.reradiation.size());
+    return out + "\n";
+}
+
+std::string part_text(const exr::ExrPart& part, std::size_t index) {
+    std::string out = fmt::format("part {}{}: {}x{} pixels, {} channels, {}{}, {} compression\n", index,
+                                  part.name.empty() ? "" : " \"" + part.name + "\"",
+                                  part.data_window.width(), part.data_window.height(),
+                                  part.channels.size(), part.deep ? "deep " : "",
+                                  part.tiled ? "tiles" : "scanlines", part.compression());
+    out += "  data window " + window_text(part.data_window);
+    out += part.display_window == part.data_window
+               ? ", the display window too\n"
+               : ", display window " + window_text(part.display_window) + "\n";
+    if (part.layout.sets.empty())
+        out += "  no spectral bands\n";
+    else
+        out += "  spectral layout version " +
+               part.metadata.layout_version.value_or("not stated") + "\n";
+    for (const SpectralSet& set : part.layout.sets)
+        out += set_text(part, set);
+    if (!part.metadata.sensitivities.empty())
+        out += fmt::format("  sensitivities of {} bands\n", part.metadata.sensitivities.size());
+    if (part.metadata.camera_response)
+        out += "  camera response\n";
+    if (part.metadata.lens_transmission)
+        out += "  lens transmission\n";
+    if (part.metadata.handedness)
+        out += "  polarisation handedness " + *part.metadata.handedness + "\n";
+    if (!part.layout.others.empty()) {
+        std::vector<std::string> names;
+        for (const std::size_t channel : part.layout.others)
+            names.push_back(part.layout.channel_names[channel]);
+        const std::size_t count = names.size();
+        names.resize(std::min(count, kNamedChannels));
+        out += "  other channels: " + join(names, ", ") +
+               (count > kNamedChannels ? fmt::format(" and {} more", count - kNamedChannels) : "") +
+               " (" + types_text(part, part.layout.others, [](std::size_t c) { return c; }) + ")\n";
+    }
+    for (const auto* warnings : {&part.layout.warnings, &part.metadata.warnings})
+        for (const std::string& warning : *warnings)
+            out += "  warning: " + warning + "\n";
+    return out;
+}
+
+std::string percent(double share) {
+    return fmt::format("{:.3g} %", 100 * share);
+}
+
+}  // namespace
+
+std::string spacing_text(const std::vector<double>& nm) {
+    if (nm.size() < 2)
+        return nm.empty() ? "no wavelength" : format_double(nm[0]) + " nm";
+    double least = nm[1] - nm[0], most = least;
+    for (std::size_t i = 1; i < nm.size(); ++i) {
+        least = std::min(least, nm[i] - nm[i - 1]);
+        most = std::max(most, nm[i] - nm[i - 1]);
+    }
+    const std::string range = format_double(nm.front()) + "-" + format_double(nm.back()) + " nm";
+    if (most - least < kSameSpacingNm)
+        return range + " every " + fmt::format("{:.6g} nm", (nm.back() - nm.front()) /
+                                                                static_cast<double>(nm.size() - 1));
+    return range + fmt::format(" spaced {:.6g} to {:.6g} nm", least, most);
+}
+
+std::string info_text(const exr::ExrFile& file) {
+    std::string out = fmt::format("{}: {} part{}\n", file.path(), file.parts().size(),
+                                  file.parts().size() == 1 ? "" : "s");
+    for (std::size_t part = 0; part < file.parts().size(); ++part)
+        out += part_text(file.parts()[part], part);
+    return out;
+}
+
+std::string plan_text(const exr::CollapseJob& job) {
+    const CollapsePlan& plan = job.plan;
+    std::string out = fmt::format("recipe       {}\nplan         {}\n", recipe_text(plan.request), plan.id);
+    out += fmt::format("set          {} of part {}: {} bands, {}\n", plan.request.set, job.part_index,
+                       plan.bands.size(), spacing_text(plan.wavelengths_nm()));
+    out += fmt::format("observer     {}: {}\n", plan.observer.id, plan.observer.source);
+    out += plan.illuminant
+               ? fmt::format("illuminant   {}: {}\n", plan.illuminant->id, plan.illuminant->source)
+               : std::string("illuminant   none: the bands are radiance\n");
+    out += fmt::format("integral     {} basis, {}, extrapolate {}\n", basis_name(plan.request.basis),
+                       plan.quadrature == Quadrature::Sum1nm
+                           ? "CIE 15 sum at 1 nm over 360-830 nm"
+                           : "exact integral over 360-830 nm (bands closer than 1 nm)",
+                       extrapolation_name(plan.request.extrapolation));
+    if (plan.adapted_from) {
+        const Vector3& white = *plan.adapted_from;
+        out += fmt::format("adaptation   Bradford from XYZ {:.6f} {:.6f} {:.6f}\n", white[0], white[1],
+                           white[2]);
+    }
+    out += "extrapolated";
+    for (std::size_t row = 0; row < plan.outputs.size(); ++row)
+        out += fmt::format(" {} {}", plan.outputs[row], percent(plan.extrapolated_share[row]));
+    out += " of each output's weight\n";
+
+    std::vector<TextTable::Column> columns{{"channel"}, {"nm", TextTable::Align::Right}};
+    for (const std::string& output : plan.outputs)
+        columns.push_back({output, TextTable::Align::Right});
+    TextTable table(columns);
+    for (std::size_t band = 0; band < plan.bands.size(); ++band) {
+        std::vector<std::string> row{job.part().layout.channel_names[plan.bands[band].channel],
+                                     format_double(plan.bands[band].wavelength_nm)};
+        for (std::size_t output = 0; output < plan.outputs.size(); ++output)
+            row.push_back(fmt::format("{:.9f}", plan.weights.at(output, band)));
+        table.add(std::move(row));
+    }
+    out += "\n" + table.text();
+    for (const std::string& warning : job.warnings)
+        out += "warning: " + warning + "\n";
+    return out;
+}
+
+std::string outcome_text(const exr::CollapseJob& job, const CollapseOutcome& outcome) {
+    const CollapsePlan& plan = job.plan;
+    std::string out = fmt::format(
+        "{}: {}x{} {} {}, from {} bands of set {}{} ({}), plan {}, {:.2f} s\n", outcome.output,
+        job.part().data_window.width(), job.part().data_window.height(), plan.space.id, outcome.type,
+        plan.bands.size(), plan.request.set,
+        plan.illuminant ? " under " + plan.illuminant->id : "", plan.observer.id, plan.id,
+        outcome.seconds);
+    const auto line = [&out, &outcome](std::uint64_t count, std::string_view what) {
+        if (count > 0)
+            out += fmt::format("note: {} of {} pixels {}\n", count, outcome.counts.pixels, what);
+    };
+    line(outcome.counts.nan, "hold NaN");
+    line(outcome.counts.infinite, "are infinite");
+    line(outcome.counts.negative, "have a negative channel (kept)");
+    line(outcome.clipped_pixels, "were clipped to 0 to 1");
+    if (outcome.clamped_samples > 0)
+        out += fmt::format("note: {} samples beyond +-65504 were written as +-65504\n",
+                           outcome.clamped_samples);
+    return out;
+}
+
+}  // namespace osio::tool

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <tools/osiotool/commands.h>
+
+#include <osio/collapse/request.h>
+
+namespace osio::tool {
+
+/// The request that some words make, in the order in which they were given.
+[[nodiscard]] inline Result<CollapseRequest> request_of(const RequestWords& words) {
+    CollapseRequest request;
+    for (const auto& [key, value] : words)
+        OSIO_CHECK_OK(set_option(request, key, value));
+    return request;
+}
+
+}  // namespace osio::tool
