@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <osio/base/text.h>
 #include <osio/collapse/plan.h>
 
 #include <gtest/gtest.h>

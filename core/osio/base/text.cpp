@@ -5,7 +5,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 
 namespace osio {
 
@@ -17,20 +16,26 @@ char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-/// Edit distance of Levenshtein, one row at a time.
+/// Edit distance that counts two swapped neighbours as one error (optimal string alignment): most
+/// typing errors are of that kind.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    std::iota(row.begin(), row.end(), std::size_t{0});
-    for (std::size_t i = 0; i < a.size(); ++i) {
-        std::size_t diagonal = row[0];
-        row[0] = i + 1;
-        for (std::size_t j = 0; j < b.size(); ++j) {
-            const std::size_t substitute = diagonal + (lower(a[i]) == lower(b[j]) ? 0 : 1);
-            diagonal = row[j + 1];
-            row[j + 1] = std::min({row[j] + 1, diagonal + 1, substitute});
+    const std::size_t width = b.size() + 1;
+    std::vector<std::size_t> d((a.size() + 1) * width);
+    for (std::size_t i = 0; i <= a.size(); ++i) {
+        for (std::size_t j = 0; j <= b.size(); ++j) {
+            std::size_t& cell = d[i * width + j];
+            if (i == 0 || j == 0) {
+                cell = i + j;
+                continue;
+            }
+            const auto same = [&](std::size_t x, std::size_t y) { return lower(a[x]) == lower(b[y]); };
+            cell = std::min({d[(i - 1) * width + j] + 1, d[i * width + j - 1] + 1,
+                             d[(i - 1) * width + j - 1] + (same(i - 1, j - 1) ? 0 : 1)});
+            if (i > 1 && j > 1 && same(i - 1, j - 2) && same(i - 2, j - 1))
+                cell = std::min(cell, d[(i - 2) * width + j - 2] + 1);
         }
     }
-    return row[b.size()];
+    return d.back();
 }
 
 }  // namespace

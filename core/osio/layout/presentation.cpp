@@ -15,24 +15,30 @@ bool comes_first(std::string_view name) {
     return std::find(kFirst.begin(), kFirst.end(), name) != kFirst.end();
 }
 
-/// The spelling in nanometres, else (where that is taken by a band of the same wavelength) the
-/// file's own with a point, else the file's own.
-std::string comma_free_name(const std::string& stored, const std::set<std::string>& taken) {
-    const auto name = parse_channel_name(stored, DecimalMark::Comma);
-    const std::string in_nm = format_channel_name(*name, DecimalMark::Point);
-    if (!taken.contains(in_nm))
-        return in_nm;
-    std::string pointed = stored;
-    std::replace(pointed.begin(), pointed.end(), ',', '.');
-    return taken.contains(pointed) ? stored : pointed;
+bool is_digit(char c) {
+    return c >= '0' && c <= '9';
 }
 
-/// "T.400nm" becomes "T.400,0nm", "T.400,5nm" becomes "T.400,50nm": the same number.
-std::string with_another_zero(std::string name) {
-    const auto unit = name.size() - 2;  // canonical names end in "nm"
-    const auto last_field = name.rfind('.');
-    const bool has_comma = name.find(',', last_field) != std::string::npos;
-    return name.insert(unit, has_comma ? "0" : ",0");
+/// "T.400nm" becomes "T.400,0nm", "T.400.5nm" becomes "T.400.50nm": the same wavelength under another
+/// name. `name` is one of ours, so it ends in digits and "nm".
+std::string with_another_zero(std::string name, DecimalMark mark) {
+    const std::size_t unit = name.size() - 2;
+    std::size_t first = unit;
+    while (first > 0 && is_digit(name[first - 1]))
+        --first;
+    // A point between two digits is a decimal mark, a point behind a letter ends a field.
+    const bool fraction = first >= 2 && (name[first - 1] == ',' ||
+                                         (name[first - 1] == '.' && is_digit(name[first - 2])));
+    const char* const more = fraction ? "0" : mark == DecimalMark::Comma ? ",0" : ".0";
+    return name.insert(unit, more);
+}
+
+/// The name of a band in nanometres that nothing else has yet; it is taken from then on.
+std::string take_name(const ChannelName& band, DecimalMark mark, std::set<std::string>& taken) {
+    std::string name = format_channel_name(band, mark);
+    while (!taken.insert(name).second)
+        name = with_another_zero(std::move(name), mark);
+    return name;
 }
 
 }  // namespace
@@ -44,8 +50,11 @@ std::vector<PresentedChannel> present_channels(const ChannelLayout& layout, Band
         taken.insert(layout.channel_names[channel]);
     const auto add_band = [&](std::size_t channel) {
         const std::string& stored = layout.channel_names[channel];
-        out.push_back({channel, names == BandNames::AsStored ? stored : comma_free_name(stored, taken)});
-        taken.insert(out.back().name);
+        if (names == BandNames::AsStored)
+            out.push_back({channel, stored});
+        else
+            out.push_back({channel, take_name(*parse_channel_name(stored, DecimalMark::Comma),
+                                              DecimalMark::Point, taken)});
     };
 
     for (const std::string_view first : kFirst)
@@ -70,11 +79,7 @@ std::vector<std::string> layout_names(std::span<const std::string> names) {
         auto name = parse_channel_name(given, DecimalMark::Comma);
         if (!name)
             name = parse_channel_name(given, DecimalMark::Point);
-        std::string written = name ? format_channel_name(*name, DecimalMark::Comma) : given;
-        while (name && taken.contains(written))
-            written = with_another_zero(std::move(written));
-        taken.insert(written);
-        out.push_back(std::move(written));
+        out.push_back(name ? take_name(*name, DecimalMark::Comma, taken) : given);
     }
     return out;
 }

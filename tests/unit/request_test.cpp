@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <support/sets.h>
+
+#include <osio/base/text.h>
+#include <osio/collapse/selection.h>
+
+namespace osio::test {
+namespace {
+
+std::string error_of(const std::string& key, const std::string& value) {
+    CollapseRequest request;
+    const auto result = set_option(request, key, value);
+    return result ? "no error" : result.error().text();
+}
+
+TEST(Request, ARecipeReadsBackAsTheSameRequest) {
+    for (const char* text :
+         {"to=lin_rec709&illuminant=D65", "to=xyz", "to=ACEScg&white=0.31,0.33&exposure=-1.5&names=rgb",
+          "to=xyz_d65&names=xyz&set=left.T&part=beauty&extrapolate=zero&observer=CIE1964&illuminant=FL11",
+          "to=raw&names=layout"}) {
+        const std::string once = recipe_text(request_of(text));
+        EXPECT_EQ(recipe_text(request_of(once)), once) << text;
+    }
+    EXPECT_EQ(recipe_text(request_of("to=srgb&illuminant=A")),
+              "to=srgb&illuminant=A&observer=cie1931&basis=linear&extrapolate=hold&exposure=0");
+}
+
+TEST(Request, MistypedWordsAreAnsweredWithTheNearest) {
+    EXPECT_EQ(error_of("iluminant", "D65"),
+              "no option is called \"iluminant\"; did you mean \"illuminant\"?");
+    EXPECT_EQ(error_of("to", "lin_rec790"),
+              "no output space is called \"lin_rec790\"; did you mean \"lin_rec709\"?");
+    EXPECT_EQ(error_of("observer", "cie1913"),
+              "no observer is called \"cie1913\"; did you mean \"cie1931\"?");
+    EXPECT_EQ(error_of("extrapolate", "hodl"), "extrapolate \"hodl\" is unknown; did you mean \"hold\"?");
+    EXPECT_EQ(error_of("basis", "lineaar"), "basis \"lineaar\" is unknown; did you mean \"linear\"?");
+    EXPECT_EQ(error_of("names", "rbg"), "names \"rbg\" is unknown; did you mean \"rgb\"?");
+    EXPECT_EQ(error_of("exposure", "bright"),
+              "exposure \"bright\" is no number of stops between -100 and 100");
+    EXPECT_EQ(error_of("exposure", "1e9"), "exposure \"1e9\" is no number of stops between -100 and 100");
+}
+
+TEST(Request, EverySpaceIsKnownByItsIdAndItsAliasesInAnyCase) {
+    for (const OutputSpace& space : output_spaces()) {
+        EXPECT_EQ(find_output_space(space.id)->id, space.id);
+        for (const auto alias : split(space.aliases, '|'))
+            if (!alias.empty()) {
+                EXPECT_EQ(find_output_space(to_lower(alias))->id, space.id) << alias;
+            }
+    }
+}
+
+/// Parts of a file, for the choice of one.
+class Parts {
+  public:
+    Parts& add(const std::string& name, const std::vector<std::string>& channels) {
+        m_layouts.push_back(
+            std::make_unique<ChannelLayout>(parse_channel_layout(channels, DecimalMark::Comma)));
+        m_parts.push_back({name, m_layouts.back().get(), {}, false,
+                           std::vector<bool>(channels.size(), false)});
+        return *this;
+    }
+
+    PartSummary& back() { return m_parts.back(); }
+
+    std::string choose(const std::string& request) {
+        const auto selection = select_set(m_parts, request_of(request));
+        if (!selection)
+            return selection.error().text();
+        const auto& part = m_parts[selection->part];
+        return std::to_string(selection->part) + ":" + part.layout->sets[selection->set].name();
+    }
+
+    ErrorCode code(const std::string& request) {
+        return select_set(m_parts, request_of(request)).error().code;
+    }
+
+  private:
+    std::vector<std::unique_ptr<ChannelLayout>> m_layouts;
+    std::vector<PartSummary> m_parts;
+};
+
+TEST(Selection, TheOnlySetNeedsNoName) {
+    EXPECT_EQ(Parts().add("", {"R", "T.400nm", "T.500nm"}).choose("to=xyz"), "0:T");
+    EXPECT_EQ(Parts().add("beauty", {"R", "G", "B"}).add("bands", {"S0.400nm"}).choose("to=xyz"), "1:S0");
+}
+
+TEST(Selection, StokesComponentsStandBackForTheIntensity) {
+    Parts polarised;
+    polarised.add("", {"S0.400nm", "S1.400nm", "S2.400nm", "S3.400nm"});
+    EXPECT_EQ(polarised.choose("to=xyz"), "0:S0");
+    EXPECT_EQ(polarised.choose("to=xyz&set=S2"), "0:S2");
+    EXPECT_EQ(Parts().add("", {"S1.400nm"}).choose("to=xyz"), "0:S1");
+}
+
+TEST(Selection, WhatFitsSeveralIsRefusedWithTheChoices) {
+    Parts both;
+    both.add("", {"S0.400nm", "T.400nm"});
+    EXPECT_EQ(both.choose("to=xyz"),
+              "several sets of bands fit: S0, T; name one with set=... or part=...");
+    EXPECT_EQ(both.code("to=xyz"), ErrorCode::Ambiguous);
+    EXPECT_EQ(both.choose("to=xyz&set=T"), "0:T");
+    Parts eyes;
+    eyes.add("left", {"T.400nm"}).add("right", {"T.400nm"});
+    EXPECT_EQ(eyes.choose("to=xyz"), "several sets of bands fit: T in part 0 \"left\", T in part 1 "
+                                     "\"right\"; name one with set=... or part=...");
+    EXPECT_EQ(eyes.choose("to=xyz&part=right"), "1:T");
+    EXPECT_EQ(eyes.choose("to=xyz&part=0"), "0:T");
+}
+
+TEST(Selection, WhatIsNotThereIsRefusedWithWhatIs) {
+    Parts one;
+    one.add("beauty", {"R"}).add("bands", {"T.400nm", "left.T.400nm"});
+    EXPECT_EQ(one.choose("to=xyz&set=S0"),
+              "there is no set \"S0\"; found T in part 1 \"bands\", left.T in part 1 \"bands\"");
+    EXPECT_EQ(one.choose("to=xyz&part=2"),
+              "there is no part \"2\"; the file has part 0 \"beauty\", part 1 \"bands\"");
+    EXPECT_EQ(one.choose("to=xyz&set=left.T"), "1:left.T");
+    EXPECT_EQ(one.code("to=xyz&part=0"), ErrorCode::NotSpectral);
+}
+
+TEST(Selection, AFileWithoutBandsIsNotSpectralAndNamesItsDialect) {
+    Parts plain;
+    plain.add("", {"R", "G", "B"});
+    EXPECT_EQ(plain.code("to=xyz"), ErrorCode::NotSpectral);
+    EXPECT_NE(plain.choose("to=xyz").find("no spectral band among 3 channels (R, G, B)"),
+              std::string::npos);
+    Parts mitsuba;
+    mitsuba.add("", {"395.00-405.00nm", "405.00-415.00nm"});
+    EXPECT_EQ(mitsuba.code("to=xyz"), ErrorCode::NotSpectral);
+    EXPECT_NE(mitsuba.choose("to=xyz").find("Mitsuba 0.x"), std::string::npos);
+}
+
+TEST(Selection, DeepAndSubsampledBandsAreRefused) {
+    Parts deep;
+    deep.add("", {"T.400nm"}).back().deep = true;
+    EXPECT_EQ(deep.code("to=xyz"), ErrorCode::Unsupported);
+    Parts subsampled;
+    subsampled.add("", {"BY", "T.400nm"}).back().subsampled = {true, false};
+    EXPECT_EQ(subsampled.choose("to=xyz"), "0:T");  // only the bands matter
+    subsampled.back().subsampled = {false, true};
+    EXPECT_EQ(subsampled.code("to=xyz"), ErrorCode::Unsupported);
+}
+
+}  // namespace
+}  // namespace osio::test
