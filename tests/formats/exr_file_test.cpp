@@ -68,7 +68,9 @@ TEST(ExrFile, PartsDeepAndSubsampledAreTold) {
     deep.display_window = display;
     deep.compression = Imf::ZIPS_COMPRESSION;
     write_exr(path, {beauty, bands, deep});
-    const auto file = ExrFile::open(path).value();
+    const auto opened = ExrFile::open(path);
+    ASSERT_TRUE(opened) << opened.error().text();
+    const auto& file = *opened;
     ASSERT_EQ(file->parts().size(), 3U);
     EXPECT_EQ(file->parts()[1].name, "bands");
     EXPECT_TRUE(file->parts()[2].deep);

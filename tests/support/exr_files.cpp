@@ -49,6 +49,8 @@ Imf::Header header_of(const TestPart& part, bool several) {
             Imf::TileDescription(static_cast<unsigned>(part.tiles->x), static_cast<unsigned>(part.tiles->y),
                                  part.mipmaps ? Imf::MIPMAP_LEVELS : Imf::ONE_LEVEL));
     header.setType(part.deep ? Imf::DEEPSCANLINE : part.tiles ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
+    if (part.deep)
+        header.setVersion(1);
     if (several || !part.name.empty())
         header.setName(part.name);
     if (part.attributes)
