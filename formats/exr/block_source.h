@@ -27,7 +27,7 @@ struct BlockGrid {
 };
 
 /// The grid of a part, decided by its compression and tiles.
-[[nodiscard]] Result<BlockGrid> block_grid(const ExrFile& file, std::size_t part);
+[[nodiscard]] BlockGrid block_grid(const ExrPart& part);
 
 /// Decodes channels of one part into planar blocks: through OpenEXRCore's chunk pipeline, or through
 /// the C++ API where 3.1.5's Core is slower (PIZ), lacks the codec (DWA) or is not trusted (B44).

@@ -8,7 +8,9 @@
 #include <OpenEXR/openexr_std_attr.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <string>
 
 namespace osio::exr {
 
@@ -25,11 +27,7 @@ struct Place {
 class CoreReader final : public BlockReader {
   public:
     explicit CoreReader(const BlockJob& job)
-        : m_job(job), m_part(job.file->parts()[job.part]), m_buffer(m_part, job.planes, job.grid) {
-        for (std::size_t plane = 0; plane < job.planes.size(); ++plane)
-            if (job.planes[plane])
-                m_plane_of_channel[*job.planes[plane]] = plane;
-    }
+        : m_job(job), m_part(job.file->parts()[job.part]), m_buffer(m_part, job.planes, job.grid) {}
 
     CoreReader(const CoreReader&) = delete;
     CoreReader& operator=(const CoreReader&) = delete;
@@ -97,6 +95,8 @@ class CoreReader final : public BlockReader {
                         ? exr_decoding_update(context(), part_index(), &chunk, &m_decode)
                         : exr_decoding_initialize(context(), part_index(), &chunk, &m_decode);
         if (code == EXR_ERR_SUCCESS) {
+            if (!m_initialised)
+                match_channels();
             point_channels(place);
             if (!m_initialised)
                 code = exr_decoding_choose_default_routines(context(), part_index(), &m_decode);
@@ -109,12 +109,23 @@ class CoreReader final : public BlockReader {
         return {};
     }
 
-    /// The decoder's channels are in the order of the file, as ExrPart::channels is.
+    /// Finds the plane of each of the decoder's channels, which are in the order of the file.
+    void match_channels() {
+        std::map<std::string, std::size_t, std::less<>> planes;
+        for (std::size_t plane = 0; plane < m_job.planes.size(); ++plane)
+            if (m_job.planes[plane])
+                planes[m_part.channels[*m_job.planes[plane]].name] = plane;
+        for (int c = 0; c < m_decode.channel_count; ++c) {
+            const auto found = planes.find(m_decode.channels[c].channel_name);
+            m_planes.push_back(found == planes.end() ? std::nullopt : std::optional(found->second));
+        }
+    }
+
     void point_channels(const Place& place) {
         for (int c = 0; c < m_decode.channel_count; ++c) {
             exr_coding_channel_info_t& channel = m_decode.channels[c];
-            const auto plane = m_plane_of_channel.find(static_cast<std::size_t>(c));
-            if (plane == m_plane_of_channel.end()) {
+            const auto plane = m_planes[static_cast<std::size_t>(c)];
+            if (!plane) {
                 channel.decode_to_ptr = nullptr;
                 continue;
             }
@@ -123,7 +134,7 @@ class CoreReader final : public BlockReader {
                                            static_cast<std::size_t>(m_job.grid.window.width()) +
                                        static_cast<std::size_t>(place.column);
             channel.decode_to_ptr =
-                reinterpret_cast<uint8_t*>(m_buffer.plane(plane->second) + offset * bytes);
+                reinterpret_cast<uint8_t*>(m_buffer.plane(*plane) + offset * bytes);
             channel.user_data_type = channel.data_type;
             channel.user_bytes_per_element = channel.bytes_per_element;
             channel.user_pixel_stride = static_cast<int32_t>(bytes);
@@ -134,7 +145,7 @@ class CoreReader final : public BlockReader {
     BlockJob m_job;
     const ExrPart& m_part;
     BlockBuffer m_buffer;
-    std::map<std::size_t, std::size_t> m_plane_of_channel;
+    std::vector<std::optional<std::size_t>> m_planes;  ///< by the decoder's channels
     exr_decode_pipeline_t m_decode = EXR_DECODE_PIPELINE_INITIALIZER;
     bool m_initialised = false;
 };

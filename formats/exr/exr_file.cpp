@@ -10,7 +10,6 @@
 #include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/openexr_base.h>
 #include <OpenEXR/openexr_part.h>
-#include <OpenEXR/openexr_std_attr.h>
 
 #include <array>
 #include <cerrno>
@@ -65,24 +64,20 @@ bool plausible(const Imath::Box2i& box) {
     return width > 0 && height > 0 && width < INT32_MAX && height < INT32_MAX;
 }
 
-Result<void> read_channels(const exr_attr_chlist_t& list, ExrPart& part) {
-    if (list.num_channels < 0 || static_cast<std::size_t>(list.num_channels) > kMostChannels)
-        return fail(ErrorCode::Damaged, std::to_string(list.num_channels) +
-                                            " channels, more than the limit of " +
-                                            std::to_string(kMostChannels));
-    std::size_t known = 0;
-    for (auto c = part.header.channels().begin(); c != part.header.channels().end(); ++c)
-        ++known;
-    for (int i = 0; i < list.num_channels; ++i) {
-        const exr_attr_chlist_entry_t& entry = list.entries[i];
-        const SampleType type = entry.pixel_type == EXR_PIXEL_HALF    ? SampleType::Half
-                                : entry.pixel_type == EXR_PIXEL_FLOAT ? SampleType::Float
-                                                                      : SampleType::Uint;
-        part.channels.push_back({entry.name.str, type, entry.x_sampling != 1 || entry.y_sampling != 1});
+SampleType sample_type(Imf::PixelType type) {
+    return type == Imf::HALF ? SampleType::Half
+           : type == Imf::FLOAT ? SampleType::Float
+                                : SampleType::Uint;
+}
+
+std::vector<ExrChannel> channels_of(const Imf::Header& header) {
+    std::vector<ExrChannel> out;
+    for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
+        const Imf::Channel& channel = c.channel();
+        out.push_back({c.name(), sample_type(channel.type),
+                       channel.xSampling != 1 || channel.ySampling != 1});
     }
-    if (known != part.channels.size())
-        return fail(ErrorCode::Damaged, "two channels have the same name");
-    return {};
+    return out;
 }
 
 void warn_of_dialect(ExrPart& part) {
@@ -98,6 +93,31 @@ TextAttributes text_attributes(const Imf::Header& header) {
         if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
             out.emplace(a.name(), text->value());
     return out;
+}
+
+Result<ExrPart> understand(const Imf::Header& header) {
+    ExrPart part;
+    part.header = header;
+    if (!plausible(header.dataWindow()) || !plausible(header.displayWindow()))
+        return fail(ErrorCode::Damaged, "the data or display window is empty or too large");
+    part.name = header.hasName() ? header.name() : std::string();
+    part.data_window = window_of(header.dataWindow());
+    part.display_window = window_of(header.displayWindow());
+    part.deep = header.hasType() && Imf::isDeepData(header.type());
+    part.tiled = header.hasType() ? Imf::isTiled(header.type()) : header.hasTileDescription();
+    part.channels = channels_of(header);
+    if (part.channels.size() > kMostChannels)
+        return fail(ErrorCode::Damaged, std::to_string(part.channels.size()) +
+                                            " channels, more than the limit of " +
+                                            std::to_string(kMostChannels));
+    std::vector<std::string> names;
+    for (const ExrChannel& channel : part.channels)
+        names.push_back(channel.name);
+    part.layout = parse_channel_layout(names, DecimalMark::Comma);
+    if (part.layout.sets.empty())
+        warn_of_dialect(part);
+    part.metadata = read_spectral_metadata(part.layout, text_attributes(header));
+    return part;
 }
 
 }  // namespace
@@ -126,21 +146,26 @@ Result<std::shared_ptr<const ExrFile>> ExrFile::open(const std::string& path) {
     exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
     init.error_handler_fn = keep_core_message;
     const exr_result_t code = exr_start_read(&file->m_context, path.c_str(), &init);
-    if (code != EXR_ERR_SUCCESS) {
+    if (code != EXR_ERR_SUCCESS)
         file->m_context = nullptr;
+    // Core 3.1.5 refuses some sound files (flat parts beside deep ones); then the C++ API decides.
+    if (code != EXR_ERR_SUCCESS && code != EXR_ERR_MISSING_REQ_ATTR)
         return core_failure(code, path);
-    }
-    if (auto result = file->read_headers(bytes); !result)
-        return fail_within(path, std::move(result).error());
+    if (auto result = file->check_chunks(bytes); !result)
+        return fail_in(path, std::move(result).error());
+    if (auto result = file->read_headers(); !result)
+        return fail_in(path, std::move(result).error());
     return file;
 }
 
-Result<void> ExrFile::read_headers(std::uint64_t file_bytes) {
+Result<void> ExrFile::check_chunks(std::uint64_t file_bytes) const {
+    if (m_context == nullptr)
+        return {};
     int count = 0;
     exr_get_count(m_context, &count);
-    for (int i = 0; i < count; ++i) {
+    for (int part = 0; part < count; ++part) {
         int32_t chunks = 0;
-        const exr_result_t code = exr_get_chunk_count(m_context, i, &chunks);
+        const exr_result_t code = exr_get_chunk_count(m_context, part, &chunks);
         if (code != EXR_ERR_SUCCESS)
             return core_failure(code, {});
         // Each chunk has 8 bytes in the offset table.
@@ -148,42 +173,16 @@ Result<void> ExrFile::read_headers(std::uint64_t file_bytes) {
             return fail(ErrorCode::Damaged, "the header promises " + std::to_string(chunks) +
                                                 " chunks, more than " + std::to_string(file_bytes) +
                                                 " bytes can hold; the file is cut short or damaged");
-        uint64_t chunk_bytes = 0;
-        exr_get_chunk_unpacked_size(m_context, i, &chunk_bytes);
-        if (chunk_bytes > kMostChunkBytes)
-            return fail(ErrorCode::Damaged, "a chunk of " + std::to_string(chunk_bytes) +
-                                                " bytes, more than the limit of " +
-                                                std::to_string(kMostChunkBytes));
     }
+    return {};
+}
+
+Result<void> ExrFile::read_headers() {
     try {
         // 0: no threads of OpenEXR's global pool, which belongs to the host.
-        Imf::MultiPartInputFile file(m_path.c_str(), 0, false);
-        if (file.parts() != count)
-            return fail(ErrorCode::Damaged, "the number of parts is ambiguous");
-        for (int i = 0; i < count; ++i) {
-            ExrPart part;
-            part.header = file.header(i);
-            if (!plausible(part.header.dataWindow()) || !plausible(part.header.displayWindow()))
-                return fail(ErrorCode::Damaged, "the data or display window is empty or too large");
-            part.name = part.header.hasName() ? part.header.name() : std::string();
-            part.data_window = window_of(part.header.dataWindow());
-            part.display_window = window_of(part.header.displayWindow());
-            part.deep = part.header.hasType() && Imf::isDeepData(part.header.type());
-            exr_storage_t storage = EXR_STORAGE_LAST_TYPE;
-            exr_get_storage(m_context, i, &storage);
-            part.tiled = storage == EXR_STORAGE_TILED || storage == EXR_STORAGE_DEEP_TILED;
-            const exr_attr_chlist_t* channels = nullptr;
-            if (const auto code = exr_get_channels(m_context, i, &channels);
-                code != EXR_ERR_SUCCESS || channels == nullptr)
-                return core_failure(code, {});
-            OSIO_CHECK_OK(read_channels(*channels, part));
-            std::vector<std::string> names;
-            for (const ExrChannel& channel : part.channels)
-                names.push_back(channel.name);
-            part.layout = parse_channel_layout(names, DecimalMark::Comma);
-            if (part.layout.sets.empty())
-                warn_of_dialect(part);
-            part.metadata = read_spectral_metadata(part.layout, text_attributes(part.header));
+        const Imf::MultiPartInputFile file(m_path.c_str(), 0, false);
+        for (int i = 0; i < file.parts(); ++i) {
+            OSIO_TRY(ExrPart part, understand(file.header(i)));
             m_parts.push_back(std::move(part));
         }
     } catch (const std::bad_alloc&) {

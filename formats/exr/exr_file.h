@@ -20,9 +20,9 @@ namespace osio::exr {
 
 /// Limits of our own, checked before anything is allocated: a small file cannot ask for much.
 inline constexpr std::size_t kMostChannels = 65536;
-inline constexpr std::uint64_t kMostChunkBytes = INT32_MAX;  // the format's own 32-bit sizes
+inline constexpr std::uint64_t kMostBlockBytes = std::uint64_t{1} << 32;
 
-/// A channel as its part stores it, in the order of the file.
+/// A channel as its part stores it. Channels are in the order of their names, as in the file.
 struct ExrChannel {
     std::string name;
     SampleType type = SampleType::Float;
@@ -70,12 +70,15 @@ class ExrFile {
     [[nodiscard]] const std::string& path() const { return m_path; }
     [[nodiscard]] const std::vector<ExrPart>& parts() const { return m_parts; }
     [[nodiscard]] std::vector<PartSummary> summaries() const;
+
+    /// For OpenEXRCore's functions; null where Core cannot read the file and the C++ API can.
     [[nodiscard]] exr_const_context_t context() const { return m_context; }
 
   private:
     explicit ExrFile(std::string path) : m_path(std::move(path)) {}
 
-    Result<void> read_headers(std::uint64_t file_bytes);
+    Result<void> check_chunks(std::uint64_t file_bytes) const;
+    Result<void> read_headers();
 
     std::string m_path;
     exr_context_t m_context = nullptr;
