@@ -19,3 +19,23 @@ endforeach()
 ")
   set_property(DIRECTORY APPEND PROPERTY TEST_INCLUDE_FILES ${script})
 endfunction()
+
+# osio_python_test(FILE LABELS a b): every test method of a unittest file as a ctest of its own, run by
+# the Python that has OpenImageIO's module.
+function(osio_python_test file)
+  cmake_parse_arguments(arg "" "" "LABELS" ${ARGN})
+  set(path ${CMAKE_CURRENT_SOURCE_DIR}/${file})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${path})
+  get_filename_component(module ${file} NAME_WE)
+  file(STRINGS ${path} lines REGEX "^class |^    def test_")
+  foreach(line IN LISTS lines)
+    if(line MATCHES "^class ([A-Za-z]+)")
+      set(class ${CMAKE_MATCH_1})
+    elseif(line MATCHES "def (test_[a-z0-9_]+)")
+      set(test ${module}.${class}.${CMAKE_MATCH_1})
+      add_test(NAME ${test} COMMAND ${OSIO_PYTHON} ${path} ${class}.${CMAKE_MATCH_1})
+      set_tests_properties(${test} PROPERTIES LABELS "${arg_LABELS}" ENVIRONMENT "${OSIO_TEST_ENVIRONMENT}"
+        TIMEOUT 300 SKIP_REGULAR_EXPRESSION "OK \\(skipped")
+    endif()
+  endforeach()
+endfunction()

@@ -1,0 +1,164 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the end-to-end tests share: the product under test, other people's tools, small images, and an
+evaluation of the colour integrals of its own, in numpy."""
+
+import csv
+import json
+import os
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+import numpy as np
+import OpenImageIO as oiio
+
+HOME = os.environ["OSIO_TEST_HOME"]
+SOURCE = os.environ["OSIO_TEST_SOURCE"]
+OSIOTOOL = os.path.join(HOME, "bin", "osiotool")
+COLORCHECKER = os.environ["OSIO_TEST_COLORCHECKER"]
+CONFIG = os.path.join(SOURCE, "configs", "osio.ocio")
+
+FLOAT, HALF, UINT = oiio.FLOAT, oiio.HALF, oiio.UINT32
+
+
+def table(path):
+    """A CSV of data/ as {column: array}."""
+    with open(os.path.join(SOURCE, "data", path)) as file:
+        rows = list(csv.reader(file))
+    return {name: np.array([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])}
+
+
+def oracle_xyz(wavelengths, light=None, observer="cie1931", hold=True):
+    """3xN weights of the CIE sum at 1 nm: the obvious evaluation, by other code than the product's."""
+    cmf = table(f"observers/{observer}.csv")
+    nm = cmf["wavelength_nm"]
+    power = np.ones_like(nm) if light is None else table("illuminants/cie_1nm.csv")[light]
+    bars = np.stack([cmf[c] for c in ("x_bar", "y_bar", "z_bar")])
+    order = np.argsort(wavelengths, kind="stable")
+    sorted_nm = np.asarray(wavelengths, float)[order]
+    weights = np.zeros((3, len(wavelengths)))
+    for i, band in enumerate(order):
+        unit = np.zeros(len(wavelengths))
+        unit[i] = 1
+        phi = np.interp(nm, sorted_nm, unit)
+        if not hold:
+            phi[(nm < sorted_nm[0]) | (nm > sorted_nm[-1])] = 0
+        weights[:, band] = bars @ (power * phi)
+    return weights / (power @ bars[1])
+
+
+class OsioCase(unittest.TestCase):
+    """A test in a folder of its own."""
+
+    maxDiff = None
+
+    def setUp(self):
+        self.folder = tempfile.mkdtemp(prefix="osio-e2e-")
+        self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def files(self):
+        return sorted(os.listdir(self.folder))
+
+    # Running programs
+
+    def run_program(self, *command, env=None, timeout=60, **options):
+        environment = dict(os.environ, **(env or {}))
+        return subprocess.run([str(c) for c in command], cwd=self.folder, env=environment, timeout=timeout,
+                              capture_output=True, text=True, **options)
+
+    def check(self, *command, **options):
+        """Runs a program that must succeed; its stdout."""
+        result = self.run_program(*command, **options)
+        self.assertEqual(result.returncode, 0,
+                         f"{' '.join(map(str, command))}\n{result.stdout}{result.stderr}")
+        return result.stdout
+
+    def osiotool(self, *arguments, code=0, **options):
+        result = self.run_program(OSIOTOOL, *arguments, **options)
+        self.assertEqual(result.returncode, code,
+                         f"osiotool {' '.join(map(str, arguments))}\n{result.stdout}{result.stderr}")
+        return result
+
+    def osiotool_json(self, *arguments):
+        return json.loads(self.osiotool(*arguments, "--json").stdout)
+
+    # Images
+
+    def write_exr(self, name, channels, types=FLOAT, writer="openexr", attributes=(), origin=(0, 0),
+                  full=None, tile=0, compression="zip"):
+        """Writes {channel: 2-D array} by a writer of OpenImageIO; `types` is one or one a channel."""
+        names = list(channels)
+        pixels = np.stack([np.asarray(channels[n], np.float32) for n in names], axis=-1)
+        spec = oiio.ImageSpec(pixels.shape[1], pixels.shape[0], len(names), FLOAT)
+        spec.channelnames = tuple(names)
+        if isinstance(types, dict):
+            spec.channelformats = tuple(oiio.TypeDesc(types.get(n, FLOAT)) for n in names)
+        else:
+            spec.set_format(types)
+        spec.x, spec.y = origin
+        spec.full_x, spec.full_y, spec.full_width, spec.full_height = full or (
+            origin + (spec.width, spec.height))
+        if tile:
+            spec.tile_width = spec.tile_height = tile
+        spec.attribute("compression", compression)
+        for attribute in attributes:
+            spec.attribute(*attribute)
+        output = oiio.ImageOutput.create(writer)
+        self.assertIsNotNone(output, oiio.geterror())
+        self.assertTrue(output.open(self.path(name), spec), output.geterror())
+        ok = output.write_tiles(spec.x, spec.x + spec.width, spec.y, spec.y + spec.height, 0, 1, pixels) \
+            if tile else output.write_image(pixels)
+        self.assertTrue(ok, output.geterror())
+        self.assertTrue(output.close(), output.geterror())
+        return self.path(name)
+
+    def read(self, name, config=None, subimage=0):
+        """(spec, float pixels) through whichever reader OpenImageIO chooses."""
+        image = oiio.ImageInput.open(name if os.path.isabs(name) else self.path(name),
+                                     config or oiio.ImageSpec())
+        self.assertIsNotNone(image, oiio.geterror())
+        self.assertTrue(image.seek_subimage(subimage, 0))
+        spec = image.spec()
+        pixels = image.read_image(subimage, 0, 0, spec.nchannels, FLOAT)
+        self.assertIsNotNone(pixels, image.geterror())
+        image.close()
+        return spec, pixels
+
+    def format_of(self, name):
+        image = oiio.ImageInput.open(self.path(name))
+        self.assertIsNotNone(image, oiio.geterror())
+        return image.format_name()
+
+    def channels_of(self, name, **options):
+        """{channel: 2-D array} of a file."""
+        spec, pixels = self.read(name, **options)
+        return {channel: pixels[..., i] for i, channel in enumerate(spec.channelnames)}
+
+    def exr_channels(self, name):
+        """{channel: type} as OpenEXR's own tool lists them."""
+        listing = self.check("exrheader", self.path(name))
+        return dict(re.findall(r"^    (\S+), (.+), sampling", listing, re.M))
+
+    def bands(self, wavelengths, shape=(5, 7), seed=1, prefix="T", low=0.05, high=0.95):
+        """Random bands as {layout name: array}."""
+        random = np.random.default_rng(seed)
+        return {f"{prefix}.{format_comma(nm)}nm": random.uniform(low, high, shape).astype(np.float32)
+                for nm in wavelengths}
+
+    def colorchecker(self, name="cc.exr", patch=10):
+        self.check(COLORCHECKER, self.path(name), patch)
+        return self.path(name)
+
+
+def format_comma(nm):
+    text = repr(float(nm))
+    return text[:-2] if text.endswith(".0") else text.replace(".", ",")
+
+
+def stack(channels, names):
+    return np.stack([channels[n] for n in names], axis=-1).astype(np.float64)
