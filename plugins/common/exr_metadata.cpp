@@ -41,8 +41,7 @@ struct Renamed {
     std::string_view oiio;
 };
 
-constexpr std::array<Renamed, 12> kRenamed{{
-    {"cameraTransform", "worldtocamera"},
+constexpr std::array<Renamed, 9> kRenamed{{
     {"capDate", "DateTime"},
     {"comments", "ImageDescription"},
     {"owner", "Copyright"},
@@ -52,9 +51,10 @@ constexpr std::array<Renamed, 12> kRenamed{{
     {"aperture", "FNumber"},
     {"timeCode", "smpte:TimeCode"},
     {"keyCode", "smpte:KeyCode"},
-    {"worldToCamera", "worldToCamera"},
-    {"worldToNDC", "worldToNDC"},
 }};
+
+/// Names that OIIO writes in lower case.
+constexpr std::array<std::string_view, 3> kMatrices{"worldToCamera", "worldToNDC", "worldToScreen"};
 
 /// Metadata of OIIO that follows from something else in the file.
 constexpr std::array<std::string_view, 6> kDerived{
@@ -87,13 +87,16 @@ std::string oiio_name(std::string_view exr) {
     for (const Renamed& name : kRenamed)
         if (name.exr == exr)
             return std::string(name.oiio);
-    return std::string(exr);
+    return exr == "cameraTransform" ? "worldtocamera" : std::string(exr);
 }
 
 std::string exr_name(std::string_view oiio) {
     for (const Renamed& name : kRenamed)
         if (iequals(name.oiio, oiio))
             return std::string(name.exr);
+    for (const std::string_view name : kMatrices)
+        if (iequals(name, oiio))
+            return std::string(name);
     return iequals(oiio, "description") ? "comments" : std::string(oiio);
 }
 

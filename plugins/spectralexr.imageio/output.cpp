@@ -122,6 +122,7 @@ bool SpectralExrOutput::open(const std::string& name, const OIIO::ImageSpec& spe
         m_spec = spec;
         if (auto result = start(); !result)
             return fail_with(result.error());
+        m_open = true;
     } catch (const std::exception& error) {
         return fail_with({ErrorCode::Io, error.what(), name});
     }
@@ -187,12 +188,9 @@ Result<std::unique_ptr<exr::ExrWriter>> SpectralExrOutput::make_writer(bool with
         header.erase(std::string(attribute::kExposureValue));
     }
     std::vector<exr::OutputChannel> channels;
-    for (std::size_t c = 0; c < m_types.size(); ++c) {
-        const bool preview = m_preview && std::find(m_preview->rgb.begin(), m_preview->rgb.end(), c) !=
-                                              m_preview->rgb.end();
-        if (with_preview || !preview)
+    for (std::size_t c = 0; c < m_types.size(); ++c)
+        if (with_preview || !is_preview(c))
             channels.push_back({m_layout.channel_names[c], m_types[c]});
-    }
     return exr::ExrWriter::create(m_name, std::move(header), channels);
 }
 
@@ -239,8 +237,9 @@ Result<void> SpectralExrOutput::write_native_rows(const std::byte* rows, int row
 }
 
 bool SpectralExrOutput::close() {
-    if (!m_writer && m_held.capacity() == 0)
+    if (!m_open)
         return true;
+    m_open = false;
     bool ok = false;
     try {
         const auto result = finish();
@@ -249,8 +248,8 @@ bool SpectralExrOutput::close() {
         fail_with({ErrorCode::Io, error.what(), m_name});
     }
     m_writer.reset();
-    m_held = {};
-    m_source_samples = {};
+    m_held = std::vector<std::byte>();
+    m_source_samples.clear();
     return ok;
 }
 
@@ -262,6 +261,11 @@ Result<void> SpectralExrOutput::finish() {
         OSIO_CHECK_OK(write_held_rows(!drop_stale_preview()));
     }
     return m_writer->finish();
+}
+
+bool SpectralExrOutput::is_preview(std::size_t channel) const {
+    return m_preview && std::find(m_preview->rgb.begin(), m_preview->rgb.end(), channel) !=
+                            m_preview->rgb.end();
 }
 
 bool SpectralExrOutput::drop_stale_preview() {
@@ -283,13 +287,10 @@ Result<void> SpectralExrOutput::write_held_rows(bool with_preview) {
     OSIO_TRY(m_writer, make_writer(with_preview));
     const auto pixel_bytes = static_cast<std::ptrdiff_t>(m_spec.pixel_bytes(true));
     std::vector<exr::ChannelRows> channels;
-    for (std::size_t c = 0; c < m_offsets.size(); ++c) {
-        const bool preview = std::find(m_preview->rgb.begin(), m_preview->rgb.end(), c) !=
-                             m_preview->rgb.end();
-        if (with_preview || !preview)
+    for (std::size_t c = 0; c < m_offsets.size(); ++c)
+        if (with_preview || !is_preview(c))
             channels.push_back({m_held.data() + m_offsets[c], pixel_bytes,
                                 static_cast<std::ptrdiff_t>(m_spec.scanline_bytes(true))});
-    }
     return m_writer->write_rows(m_spec.height, channels);
 }
 

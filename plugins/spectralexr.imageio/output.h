@@ -39,11 +39,13 @@ class SpectralExrOutput final : public OIIO::ImageOutput {
     Result<void> start();
     Result<void> write_native_rows(const std::byte* rows, int row_count);
     Result<void> finish();
+    [[nodiscard]] bool is_preview(std::size_t channel) const;
     bool drop_stale_preview();
     [[nodiscard]] Result<std::unique_ptr<exr::ExrWriter>> make_writer(bool with_preview) const;
     Result<void> write_held_rows(bool with_preview);
     bool fail_with(const Error& error);
 
+    bool m_open = false;
     std::string m_name;
     ChannelLayout m_layout;                           ///< of the names that are written
     std::vector<SampleType> m_types;
