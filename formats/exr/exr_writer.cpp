@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/exr/exr_writer.h>
 
+#include <formats/files/checked_file.h>
 #include <formats/files/replacement_file.h>
 
 #include <Imath/half.h>
@@ -10,11 +11,10 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfThreading.h>
 
-#include <cerrno>
 #include <cmath>
-#include <cstdio>
-#include <cstring>
 #include <exception>
+#include <optional>
+#include <stdexcept>
 
 namespace osio::exr {
 
@@ -23,54 +23,23 @@ namespace {
 /// The largest finite half.
 constexpr float kHalfMax = 65504.0F;
 
-/// A stream that remembers its first failure. Imf's OutputFile writes its offset table when it is
-/// destroyed and swallows what goes wrong there; a full disk would pass unnoticed.
+/// OpenEXR's view of a checked file: its OutputFile writes the offset table when it is destroyed and
+/// swallows what goes wrong there.
 class CheckedStream final : public Imf::OStream {
   public:
-    explicit CheckedStream(const std::string& path)
-        : Imf::OStream(path.c_str()), m_file(std::fopen(path.c_str(), "wb")) {
-        if (m_file == nullptr)
-            note();
-    }
-
-    CheckedStream(const CheckedStream&) = delete;
-    CheckedStream& operator=(const CheckedStream&) = delete;
-    ~CheckedStream() override { close(); }
+    explicit CheckedStream(const std::string& path) : Imf::OStream(path.c_str()), m_file(path) {}
 
     void write(const char bytes[], int count) override {
-        const auto size = static_cast<std::size_t>(count);
-        if (m_file == nullptr || std::fwrite(bytes, 1, size, m_file) != size)
-            note();
-        else
-            m_position += size;
-        if (m_errno != 0)
-            throw std::runtime_error(std::strerror(m_errno));
+        if (!m_file.write(bytes, static_cast<std::size_t>(count)))
+            throw std::runtime_error(m_file.failure());
     }
+    std::uint64_t tellp() override { return m_file.position(); }
+    void seekp(std::uint64_t position) override { m_file.seek(position); }
 
-    std::uint64_t tellp() override { return m_position; }
-
-    void seekp(std::uint64_t position) override {
-        if (m_file == nullptr || ::fseeko(m_file, static_cast<off_t>(position), SEEK_SET) != 0)
-            note();
-        m_position = position;
-    }
-
-    /// Hands every byte to the system; 0 or the errno of the first failure since the start.
-    int close() {
-        if (m_file != nullptr && std::fclose(std::exchange(m_file, nullptr)) != 0)
-            note();
-        return m_errno;
-    }
+    [[nodiscard]] files::CheckedFile& file() { return m_file; }
 
   private:
-    void note() {
-        if (m_errno == 0)
-            m_errno = errno != 0 ? errno : EIO;
-    }
-
-    std::FILE* m_file;
-    std::uint64_t m_position = 0;
-    int m_errno = 0;
+    files::CheckedFile m_file;
 };
 
 Imf::PixelType pixel_type(SampleType type) {
@@ -150,8 +119,8 @@ Result<void> ExrWriter::finish() {
         return fail(ErrorCode::Io, std::to_string(state.rows_left) + " rows were never written",
                     state.file.target());
     state.output.reset();  // writes the offset table
-    if (const int error = state.stream.close())
-        return fail(ErrorCode::Io, std::string("cannot be written: ") + std::strerror(error),
+    if (state.stream.file().close() != 0)
+        return fail(ErrorCode::Io, "cannot be written: " + state.stream.file().failure(),
                     state.file.target());
     return state.file.commit();
 }

@@ -74,53 +74,58 @@ class Examination {
     explicit Examination(const std::string& plugin_folder) : m_folder(plugin_folder) {}
 
     std::vector<Finding> run() {
-        good("OpenImageIO " + host_attribute("version"));
+        add(Kind::Good, "OpenImageIO " + host_attribute("version"));
         // The first request for a format makes OpenImageIO catalogue every plugin it finds.
         const auto input = OIIO::ImageInput::create(kFormat);
         OIIO::geterror();
-        const bool seen = input && in_list(host_attribute("format_list"), kFormat);
-        const std::string found = look_in(search_path());
-        if (seen)
-            good("OpenImageIO sees the plugin " + found + " (" + library_version(found) + ")");
+        const std::string used = follow_the_search();
+        if (input && in_list(host_attribute("format_list"), kFormat))
+            add(Kind::Good,
+                "OpenImageIO sees the plugin " + used + " (" + library_version(used) + ")");
         else
-            explain(found);
+            explain();
         if (OIIO::get_int_attribute("try_all_readers", 1) == 0)
-            bad("try_all_readers is 0: names with a query (shot.exr?to=...) will not be read; "
-                ".spectral and .spexr will");
+            add(Kind::Problem, "try_all_readers is 0: names with a query (shot.exr?to=...) will not be "
+                               "read; .spectral and .spexr will");
         return std::move(m_findings);
     }
 
   private:
-    void good(std::string text) { m_findings.push_back({true, std::move(text)}); }
-    void bad(std::string text) { m_findings.push_back({false, std::move(text)}); }
+    using Kind = Finding::Kind;
 
-    /// The first plugin file on the way; the ones behind it are never used.
-    static std::string look_in(const std::vector<std::string>& folders) {
-        for (const std::string& folder : folders)
-            if (std::filesystem::exists(folder + "/" + kFileName))
-                return folder + "/" + kFileName;
+    void add(Kind kind, std::string text) { m_findings.push_back({kind, std::move(text)}); }
+
+    /// The first plugin file on the way that can be loaded; empty where there is none. Those before
+    /// it are passed over, as OpenImageIO does without a word.
+    std::string follow_the_search() {
+        for (const std::string& folder : search_path()) {
+            const std::string file = folder + "/" + kFileName;
+            if (!std::filesystem::exists(file))
+                continue;
+            const std::string why = why_not_loaded(file);
+            if (why.empty())
+                return file;
+            add(Kind::Note, file + " is passed over: " + why);
+        }
         return {};
     }
 
-    void explain(const std::string& found) {
-        bad("OpenImageIO does not see the plugin");
-        const std::string own = m_folder + "/" + kFileName;
-        if (!found.empty()) {
-            const std::string why = why_not_loaded(found);
-            bad(found + " comes first on its way" + (why.empty() ? "" : ", but " + why));
-        } else if (search_path().empty()) {
-            bad("it looks nowhere: OIIO_LIBRARY_PATH is not set, and this OpenImageIO has no folder "
-                "of its own");
-        } else {
-            std::vector<std::string> folders = search_path();
-            bad(std::string("no ") + kFileName + " in " + join(folders, ", "));
-        }
-        if (!std::filesystem::exists(own))
-            bad("this installation has no " + own);
-        else if (const std::string why = why_not_loaded(own); !why.empty())
-            bad(own + ": " + why);
+    void explain() {
+        add(Kind::Problem, "OpenImageIO does not see the plugin");
+        const std::vector<std::string> folders = search_path();
+        if (folders.empty())
+            add(Kind::Problem, "it looks nowhere: OIIO_LIBRARY_PATH is not set, and this OpenImageIO "
+                               "has no folder of its own");
         else
-            bad("to use it: export OIIO_LIBRARY_PATH=" + m_folder);
+            add(Kind::Problem,
+                std::string("no ") + kFileName + " that it can load in " + join(folders, ", "));
+        const std::string own = m_folder + "/" + kFileName;
+        if (!std::filesystem::exists(own))
+            add(Kind::Problem, "this installation has no " + own);
+        else if (const std::string why = why_not_loaded(own); !why.empty())
+            add(Kind::Problem, own + ": " + why);
+        else
+            add(Kind::Problem, "to use it: export OIIO_LIBRARY_PATH=" + m_folder);
     }
 
     const std::string& m_folder;

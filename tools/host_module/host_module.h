@@ -39,7 +39,9 @@ class HostSink : public RowSink {
 
 /// One thing that was looked at, for people.
 struct Finding {
-    bool good = true;
+    enum class Kind { Good, Note, Problem };
+
+    Kind kind = Kind::Good;
     std::string text;
 };
 

@@ -3,8 +3,10 @@
 
 #include <plugins/common/exr_metadata.h>
 
+#include <formats/files/checked_file.h>
 #include <formats/files/replacement_file.h>
 
+#include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 #include <algorithm>
 #include <cmath>
@@ -44,12 +46,33 @@ OIIO::ImageSpec spec_of(const HostImage& image) {
     return spec;
 }
 
+/// OpenImageIO's view of a checked file. Its PNG writer, for one, reports no failed write.
+class CheckedProxy final : public OIIO::Filesystem::IOProxy {
+  public:
+    explicit CheckedProxy(const std::string& path) : IOProxy(path, Write), m_file(path) {}
+
+    [[nodiscard]] const char* proxytype() const override { return "checked file"; }
+    void close() override { m_file.close(); }
+    [[nodiscard]] std::int64_t tell() override { return static_cast<std::int64_t>(m_file.position()); }
+    bool seek(std::int64_t offset) override { return m_file.seek(static_cast<std::uint64_t>(offset)); }
+    [[nodiscard]] std::size_t size() const override { return m_file.size(); }
+    std::size_t write(const void* bytes, std::size_t count) override {
+        return m_file.write(bytes, count) ? count : 0;
+    }
+
+    [[nodiscard]] files::CheckedFile& file() { return m_file; }
+
+  private:
+    files::CheckedFile m_file;
+};
+
 /// Interleaves rows, clips them where they become integers, and gives them to a writer of OIIO.
 class OiioSink final : public HostSink {
   public:
-    OiioSink(files::ReplacementFile file, std::unique_ptr<OIIO::ImageOutput> output, StoredType type)
-        : m_file(std::move(file)), m_output(std::move(output)), m_integer(is_integer(type)),
-          m_width(static_cast<std::size_t>(m_output->spec().width)) {}
+    OiioSink(files::ReplacementFile file, std::unique_ptr<CheckedProxy> proxy,
+             std::unique_ptr<OIIO::ImageOutput> output, StoredType type)
+        : m_file(std::move(file)), m_proxy(std::move(proxy)), m_output(std::move(output)),
+          m_integer(is_integer(type)), m_width(static_cast<std::size_t>(m_output->spec().width)) {}
 
     [[nodiscard]] Result<void> write_rows(int first_row, int row_count,
                                           std::span<const float* const> planes) override {
@@ -72,6 +95,9 @@ class OiioSink final : public HostSink {
     [[nodiscard]] Result<void> finish() override {
         if (!m_output->close())
             return failure();
+        if (m_proxy && m_proxy->file().close() != 0)
+            return fail(ErrorCode::Io, "cannot be written: " + m_proxy->file().failure(),
+                        m_file.target());
         return m_file.commit();
     }
 
@@ -88,6 +114,7 @@ class OiioSink final : public HostSink {
     }
 
     files::ReplacementFile m_file;
+    std::unique_ptr<CheckedProxy> m_proxy;  ///< null for the few formats that write by themselves
     std::unique_ptr<OIIO::ImageOutput> m_output;
     bool m_integer;
     std::size_t m_width;
@@ -103,6 +130,11 @@ Result<std::unique_ptr<HostSink>> open_checked(const HostImage& image) {
                     image.path);
     const OIIO::ImageSpec spec = spec_of(image);
     OSIO_TRY(files::ReplacementFile file, files::ReplacementFile::create(image.path));
+    std::unique_ptr<CheckedProxy> proxy;
+    if (output->supports("ioproxy")) {
+        proxy = std::make_unique<CheckedProxy>(file.path());
+        output->set_ioproxy(proxy.get());
+    }
     if (!output->open(file.path(), spec))
         return fail(ErrorCode::Io, "cannot be written: " + output->geterror(), image.path);
     if (output->spec().format != spec.format)
@@ -111,7 +143,8 @@ Result<std::unique_ptr<HostSink>> open_checked(const HostImage& image) {
                         output->spec().format.c_str() + ", not " + spec.format.c_str() +
                         "; name a type it can store with -d, or write an .exr",
                     image.path);
-    return std::make_unique<OiioSink>(std::move(file), std::move(output), image.type);
+    return std::make_unique<OiioSink>(std::move(file), std::move(proxy), std::move(output),
+                                      image.type);
 }
 
 }  // namespace

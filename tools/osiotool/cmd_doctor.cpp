@@ -10,10 +10,14 @@ namespace osio::tool {
 Result<ExitCode> run_doctor() {
     fmt::print("osiotool {}\n", OSIO_VERSION);
     OSIO_TRY(const host::HostModule* const module, load_host_module());
+    using Kind = host::Finding::Kind;
     bool healthy = true;
     for (const host::Finding& finding : module->examine(plugin_folder())) {
-        fmt::print("{} {}\n", finding.good ? "ok:     " : "problem:", finding.text);
-        healthy = healthy && finding.good;
+        const char* const label = finding.kind == Kind::Good   ? "ok:     "
+                                  : finding.kind == Kind::Note ? "note:   "
+                                                               : "problem:";
+        fmt::print("{} {}\n", label, finding.text);
+        healthy = healthy && finding.kind != Kind::Problem;
     }
     const char* const config = std::getenv("OCIO");
     fmt::print("note:    OCIO {}\n",
