@@ -2,6 +2,28 @@
 find_package(GTest REQUIRED)
 include(GoogleTest)
 
+# Programs that were built without a sanitizer must load its libraries first to open a plugin that was
+# built with one; and libstdc++, which the sanitizer looks for when it starts. Leaks of Python's are not
+# ours, and what runs inside libraries without instrumentation cannot be judged.
+set(OSIO_SANITIZER_ENVIRONMENT "")
+function(osio_preload)
+  set(paths "")
+  foreach(library IN LISTS ARGN)
+    execute_process(COMMAND ${CMAKE_CXX_COMPILER} -print-file-name=${library}
+                    OUTPUT_VARIABLE path OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+    string(APPEND paths " ${path}")
+  endforeach()
+  string(STRIP "${paths}" paths)
+  set(OSIO_SANITIZER_ENVIRONMENT "LD_PRELOAD=${paths}" PARENT_SCOPE)
+endfunction()
+if("address" IN_LIST OSIO_SANITIZE)
+  osio_preload(libasan.so libubsan.so libstdc++.so)
+  list(APPEND OSIO_SANITIZER_ENVIRONMENT ASAN_OPTIONS=detect_leaks=0)
+elseif("thread" IN_LIST OSIO_SANITIZE)
+  osio_preload(libtsan.so libstdc++.so)
+  list(APPEND OSIO_SANITIZER_ENVIRONMENT TSAN_OPTIONS=halt_on_error=1:ignore_noninstrumented_modules=1)
+endif()
+
 # osio_test(NAME LABELS a b SOURCES ... LINK ... PROPERTIES key value ...): a GoogleTest program,
 # each case a ctest of its own. gtest_discover_tests keeps only the first of several labels
 # (CMake 3.25), so they are set by a script that ctest reads after the discovered tests.

@@ -19,6 +19,8 @@ CheckedFile::~CheckedFile() {
 }
 
 bool CheckedFile::write(const void* bytes, std::size_t count) {
+    if (count == 0)  // `bytes` may then be null, which fwrite does not allow
+        return m_errno == 0;
     if (m_file == nullptr || std::fwrite(bytes, 1, count, m_file) != count)
         note();
     m_position += count;
