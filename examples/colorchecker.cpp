@@ -6,10 +6,11 @@
 //     colorchecker OUT.exr [PIXELS_PER_PATCH]
 
 #include <formats/exr/exr_writer.h>
+#include <formats/exr/spectral_header.h>
 
 #include <osio/base/text.h>
 #include <osio/data/tables.h>
-#include <osio/layout/spectral_metadata.h>
+#include <osio/layout/channel_layout.h>
 #include <osio/spectra/basis.h>
 
 #include <osio/colour/illuminant.h>
@@ -79,13 +80,15 @@ Result<void> write(const std::string& path, std::size_t patch) {
     const std::size_t gap = patch / 10, cell = patch + gap;
     const std::size_t width = kColumns * cell + gap, height = (kRows + 1) * cell + gap;
     Imf::Header header(static_cast<int>(width), static_cast<int>(height));
-    header.insert(std::string(attribute::kLayoutVersion),
-                  Imf::StringAttribute(std::string(kWrittenLayoutVersion)));
     header.insert("comments", Imf::StringAttribute("ColorChecker reflectances of N. Ohta; below, a "
                                                    "measured grey and its metamer under D65"));
-    std::vector<exr::OutputChannel> channels;
+    std::vector<std::string> names;
     for (const double nm : table.wavelengths_nm)
-        channels.push_back({format_channel_name({"", Family::T, nm, {}}, DecimalMark::Comma)});
+        names.push_back(format_channel_name({"", Family::T, nm, {}}, DecimalMark::Comma));
+    exr::complete_spectral_header(parse_channel_layout(names, DecimalMark::Comma), header);
+    std::vector<exr::OutputChannel> channels;
+    for (const std::string& name : names)
+        channels.push_back({name});
     OSIO_TRY(const auto writer, exr::ExrWriter::create(path, header, channels));
 
     std::vector<float> row(width * channels.size());

@@ -237,4 +237,10 @@ Result<Imf::Compression> find_compression(std::string_view name) {
                 "no compression is called \"" + std::string(name) + "\"" + suggestion(name, known));
 }
 
+std::string library_version() {
+    int major = 0, minor = 0, patch = 0;
+    exr_get_library_version(&major, &minor, &patch, nullptr);
+    return std::to_string(major) + "." + std::to_string(minor) + "." + std::to_string(patch);
+}
+
 }  // namespace osio::exr

@@ -95,4 +95,7 @@ class ExrFile {
 [[nodiscard]] std::string compression_name(Imf::Compression compression);
 [[nodiscard]] Result<Imf::Compression> find_compression(std::string_view name);
 
+/// The version of the OpenEXR library that is running, such as "3.1.5".
+[[nodiscard]] std::string library_version();
+
 }  // namespace osio::exr

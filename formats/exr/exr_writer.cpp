@@ -18,6 +18,10 @@
 
 namespace osio::exr {
 
+void set_compression_threads(unsigned count) {
+    Imf::setGlobalThreadCount(static_cast<int>(count));
+}
+
 namespace {
 
 /// The largest finite half.

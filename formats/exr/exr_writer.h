@@ -16,6 +16,9 @@
 
 namespace osio::exr {
 
+/// How many threads OpenEXR compresses with in this process. For programs; in a plugin the host says.
+void set_compression_threads(unsigned count);
+
 /// A channel to be written.
 struct OutputChannel {
     std::string name;

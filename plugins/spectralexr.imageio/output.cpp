@@ -5,11 +5,11 @@
 
 #include <formats/exr/exr_file.h>
 #include <formats/exr/output_header.h>
+#include <formats/exr/spectral_header.h>
 
 #include <osio/layout/presentation.h>
 
 #include <OpenEXR/ImfStandardAttributes.h>
-#include <OpenEXR/ImfStringAttribute.h>
 
 #include <algorithm>
 #include <array>
@@ -59,42 +59,6 @@ void set_compression(const OIIO::ImageSpec& spec, Imf::Header& header) {
         header.dwaCompressionLevel() = static_cast<float>(quality);
     if (!dwa && quality >= 1 && quality <= 9)
         header.zipCompressionLevel() = quality;
-}
-
-/// Sensitivities are attributes named like their band: they follow the band to its written name, and
-/// go where it is not written.
-void rename_sensitivities(const std::vector<std::string>& written, Imf::Header& header) {
-    std::vector<std::pair<std::string, std::string>> curves;
-    for (auto a = header.begin(); a != header.end(); ++a)
-        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
-            if (parse_channel_name(a.name(), DecimalMark::Comma))
-                curves.emplace_back(a.name(), text->value());
-    for (const auto& [name, value] : curves) {
-        header.erase(name);
-        const auto band = parse_channel_name(name, DecimalMark::Comma);
-        for (const std::string& channel : written)
-            if (parse_channel_name(channel, DecimalMark::Comma) == band)
-                header.insert(channel, Imf::StringAttribute(value));
-    }
-}
-
-void insert_default(std::string_view name, std::string_view value, Imf::Header& header) {
-    if (header.find(std::string(name)) == header.end())
-        header.insert(std::string(name), Imf::StringAttribute(std::string(value)));
-}
-
-/// The layout's own attributes: the version always, units of what is emitted, handedness of what is
-/// polarised.
-void insert_layout_attributes(const ChannelLayout& layout, Imf::Header& header) {
-    const auto any = [&layout](auto fits) {
-        return std::any_of(layout.sets.begin(), layout.sets.end(), fits);
-    };
-    header.insert(std::string(attribute::kLayoutVersion),
-                  Imf::StringAttribute(std::string(kWrittenLayoutVersion)));
-    if (any([](const SpectralSet& s) { return s.quantity() == Quantity::Radiance; }))
-        insert_default(attribute::kEmissiveUnits, kWrittenEmissiveUnits, header);
-    if (any([](const SpectralSet& s) { return s.family != Family::S0 && s.family != Family::T; }))
-        insert_default(attribute::kHandedness, "right", header);
 }
 
 }  // namespace
@@ -181,8 +145,7 @@ Result<std::unique_ptr<exr::ExrWriter>> SpectralExrOutput::make_writer(bool with
     for (const char* name : {exr::attribute::kRecipe, exr::attribute::kPlan,
                              exr::attribute::kWarnings, kSourceAttribute, kSourcePartAttribute})
         header.erase(name);
-    rename_sensitivities(m_layout.channel_names, header);
-    insert_layout_attributes(m_layout, header);
+    exr::complete_spectral_header(m_layout, header);
     if (!with_preview) {
         header.erase(exr::attribute::kChromaticities);
         header.erase(std::string(attribute::kExposureValue));

@@ -12,8 +12,6 @@
 
 #include <osio/base/text.h>
 
-#include <OpenEXR/ImfThreading.h>
-
 #include <array>
 #include <chrono>
 #include <fmt/format.h>
@@ -125,7 +123,7 @@ Result<ExitCode> run_collapse(const CollapseOptions& options) {
     OSIO_TRY(const auto source, job.open_source());
 
     ThreadRunner runner(options.threads);
-    Imf::setGlobalThreadCount(static_cast<int>(runner.worker_count()));
+    exr::set_compression_threads(runner.worker_count());
     catch_interrupts();
     const Imf::Header header = exr::collapsed_header(job);
     OSIO_TRY(const Output output, is_exr(options.output) ? open_exr(options, job, header, type)

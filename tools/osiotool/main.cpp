@@ -4,11 +4,12 @@
 // file that includes CLI11.
 #include <tools/osiotool/commands.h>
 
+#include <formats/exr/exr_file.h>
+
 #include <osio/base/text.h>
 #include <osio/collapse/request.h>
 
 #include <CLI/CLI.hpp>
-#include <OpenEXR/OpenEXRConfig.h>
 #include <exception>
 #include <fmt/format.h>
 #include <functional>
@@ -37,7 +38,7 @@ class CommandLine {
   public:
     CommandLine() : m_app("Multispectral EXR: information, and collapse to colour.", "osiotool") {
         m_app.set_version_flag("--version", fmt::format("osiotool {} (OpenEXR {})", OSIO_VERSION,
-                                                        OPENEXR_VERSION_STRING));
+                                                        exr::library_version()));
         m_app.require_subcommand(1);
         m_app.footer("Exit codes: 0 done, 1 the request does not fit the file, 2 usage or unknown "
                      "name, 4 input damaged or not spectral, 5 the system refused, 130 interrupted.");
