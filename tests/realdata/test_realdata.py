@@ -1,0 +1,98 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Files that other software wrote, when they are at hand: OSIO_TEST_IMAGES names their folder. They are
+not part of this project; where they are absent these tests are skipped, and ctest says so."""
+
+import os
+import re
+import unittest
+
+import numpy as np
+
+from osio_case import OsioCase, oracle_xyz, stack
+
+IMAGES = os.environ.get("OSIO_TEST_IMAGES", "")
+
+
+def wavelength_of(channel):
+    """nm of a diagonal band such as T.380,000000nm or S0.300,0nm; None for other channels."""
+    match = re.fullmatch(r"(?:T|S0)\.(\d+(?:,\d+)?)nm", channel)
+    return float(match.group(1).replace(",", ".")) if match else None
+
+
+class RealFiles(OsioCase):
+    def setUp(self):
+        super().setUp()
+        if not os.path.isdir(IMAGES):
+            self.skipTest(f"no real images in \"{IMAGES}\"")
+
+    def file(self, name):
+        return os.path.join(IMAGES, name)
+
+    def check_collapse(self, name, bands, light=None, to="xyz"):
+        """The tool and the plugin against numpy on what OpenImageIO's own reader sees."""
+        source = self.file(name)
+        spec, pixels = self.read(source)
+        nm = {channel: wavelength_of(channel) for channel in spec.channelnames}
+        spectral = [channel for channel in spec.channelnames if nm[channel] is not None]
+        self.assertEqual(len(spectral), bands)
+        planes = stack({c: pixels[..., i] for i, c in enumerate(spec.channelnames)}, spectral)
+        expected = planes @ oracle_xyz([nm[c] for c in spectral], light).T
+        options = ["--illuminant", light] if light else []
+        result = self.osiotool("collapse", source, "tool.exr", "--to", to, "--names", "xyz", *options)
+        query = f"{source}?to={to}&names=xyz" + (f"&illuminant={light}" if light else "")
+        scale = np.abs(expected).max()
+        for way in (self.path("tool.exr"), query):
+            found = stack(self.channels_of(way), "XYZ")
+            self.assertLess(np.abs(found - expected).max(), 2e-6 * scale, way)
+        return result.stderr
+
+    def test_spectralexr_macbeth(self):
+        self.check_collapse("spectralexr_Macbeth.exr", 36, "D65")
+
+    def test_macbeth_is_the_picture_its_writer_stored(self):
+        # Its R,G,B are other software's collapse under D65: the same means, single patches within 0.03.
+        source = self.file("spectralexr_Macbeth.exr")
+        stored = stack(self.channels_of(source), "RGB")
+        ours = stack(self.channels_of(f"{source}?to=lin_rec709&illuminant=D65"), "RGB")
+        np.testing.assert_allclose(ours.mean(axis=(0, 1)), stored.mean(axis=(0, 1)), rtol=0.005)
+        self.assertLess(np.abs(ours - stored).max(), 0.03)
+
+    def test_ohta_in_half(self):
+        self.check_collapse("Ohta1997.exr", 16, "FL11")
+
+    def test_daylight_as_emission(self):
+        self.check_collapse("spectralexr_D65.exr", 90)
+        white = stack(self.channels_of(self.file("spectralexr_D65.exr") + "?to=xyz&names=xyz"), "XYZ")[0, 0]
+        np.testing.assert_allclose(white[:2] / white.sum(), [0.31272, 0.32903], atol=2e-4)
+
+    def test_daylight_beyond_the_visible(self):
+        self.check_collapse("colour_D65.exr", 97)
+        white = stack(self.channels_of(self.file("colour_D65.exr") + "?to=xyz&names=xyz"), "XYZ")[0, 0]
+        np.testing.assert_allclose(white[:2] / white.sum(), [0.31272, 0.32903], atol=2e-4)
+
+    def test_a_fluorescent_sample_by_its_diagonal_with_a_warning(self):
+        said = self.check_collapse("BiSpectral.exr", 41, "D65")
+        self.assertRegex(said, "warning: set T is fluorescent: its 820 reradiation channels .* not collapsed")
+
+    def test_another_dialect_is_refused_by_name(self):
+        source = self.file("mitsuba06_TestSphere.exr")
+        result = self.osiotool("collapse", source, "o.exr", "--to", "xyz", code=4)
+        self.assertIn("Mitsuba", result.stderr)
+        self.assertEqual(self.files(), [])
+        self.osiotool("info", source)
+
+    def test_bands_survive_a_round_trip_through_oiiotool(self):
+        for name in ("spectralexr_Macbeth.exr", "Ohta1997.exr", "colour_D65.exr", "BiSpectral.exr"):
+            source = self.file(name)
+            self.check("oiiotool", f"{source}?to=raw", "-o:fileformatname=spectralexr", "o.exr")
+            before, after = self.channels_of(source), self.channels_of("o.exr")
+            spectral = [c for c in before if wavelength_of(c) is not None]
+            by_wavelength = {wavelength_of(c): plane for c, plane in after.items()}
+            for channel in spectral:
+                self.assertTrue(np.array_equal(before[channel], by_wavelength[wavelength_of(channel)]), channel)
+            for channel in "RGB":  # still what was made of these bands
+                self.assertTrue(np.array_equal(before[channel], after[channel]), channel)
+
+
+if __name__ == "__main__":
+    unittest.main()
