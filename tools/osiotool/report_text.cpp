@@ -175,7 +175,7 @@ std::string outcome_text(const exr::CollapseJob& job, const CollapseOutcome& out
     };
     line(outcome.counts.nan, "hold NaN");
     line(outcome.counts.infinite, "are infinite");
-    line(outcome.counts.negative, "have a negative channel (kept)");
+    line(outcome.counts.negative, "have a negative channel, outside the gamut");
     line(outcome.clipped_pixels, "were clipped to 0 to 1");
     if (outcome.clamped_samples > 0)
         out += fmt::format("note: {} samples beyond +-65504 were written as +-65504\n",

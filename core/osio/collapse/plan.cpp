@@ -231,8 +231,11 @@ class PlanMaker {
         std::string text = format_double(below_nm) + " nm below and " + format_double(above_nm) +
                            " nm above the bands are extrapolated (" +
                            std::string(extrapolation_name(m_plan.request.extrapolation)) + "): ";
-        if (largest <= kExtrapolationWarning) {
-            text += "at most " + format_fixed(100 * largest, 2) + " % of an output's weight";
+        if (largest == 0) {
+            text += "no output has weight there";
+        } else if (largest <= kExtrapolationWarning) {
+            text += "at most " + format_fixed(std::ceil(1e4 * largest) / 100, 2) +
+                    " % of an output's weight";
         } else {
             text += "much of the weight rests on it,";
             for (std::size_t row = 0; row < share.size(); ++row)
