@@ -9,13 +9,13 @@
 #include <formats/exr/spectral_header.h>
 
 #include <osio/base/text.h>
+#include <osio/colour/illuminant.h>
 #include <osio/data/tables.h>
 #include <osio/layout/channel_layout.h>
 #include <osio/spectra/basis.h>
 
-#include <osio/colour/illuminant.h>
-
 #include <OpenEXR/ImfStringAttribute.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -34,8 +34,8 @@ std::array<std::vector<double>, 3> xyz_weights(const Table& table) {
     const Observer observer = find_observer("cie1931").value();
     std::array<std::vector<double>, 3> out;
     for (std::size_t c = 0; c < 3; ++c)
-        out[c] = linear_basis_integrals(table.wavelengths_nm, light, observer.curves[c],
-                                        Extrapolation::Hold, Quadrature::Sum1nm);
+        out[c] = linear_basis_integrals(table.wavelengths_nm, light, observer.curves[c], Extrapolation::Hold,
+                                        Quadrature::Sum1nm);
     return out;
 }
 
@@ -62,8 +62,8 @@ std::vector<double> metamer(const Table& table, const std::vector<double>& refle
     // As large as a reflectance between 0.02 and 0.98 allows.
     double scale = 1;
     for (std::size_t i = 0; i < wave.size(); ++i)
-        scale = std::min(scale, (wave[i] > 0 ? 0.98 - reflectance[i] : reflectance[i] - 0.02) /
-                                    std::abs(wave[i]));
+        scale = std::min(scale,
+                         (wave[i] > 0 ? 0.98 - reflectance[i] : reflectance[i] - 0.02) / std::abs(wave[i]));
     std::vector<double> out = reflectance;
     for (std::size_t i = 0; i < out.size(); ++i)
         out[i] += scale * wave[i];

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <formats/exr/block_source.h>
-
 #include <formats/exr/block_buffer.h>
 #include <formats/exr/block_readers.h>
+#include <formats/exr/block_source.h>
 
 #include <OpenEXR/ImfTileDescription.h>
 
@@ -52,6 +51,7 @@ class ExrBlockSource final : public BlockSource {
     explicit ExrBlockSource(BlockJob job) : m_job(std::move(job)) {}
 
     [[nodiscard]] int width() const override { return m_job.grid.window.width(); }
+
     [[nodiscard]] std::size_t block_count() const override { return m_job.grid.block_count(); }
 
     [[nodiscard]] std::size_t block_of_row(int row) const override {
@@ -82,34 +82,31 @@ std::size_t BlockGrid::block_count() const {
 }
 
 int BlockGrid::first_row(std::size_t block) const {
-    return static_cast<int>(std::int64_t{window.min_y} +
-                            static_cast<std::int64_t>(block) * rows_per_block);
+    return static_cast<int>(std::int64_t{window.min_y} + static_cast<std::int64_t>(block) * rows_per_block);
 }
 
 int BlockGrid::row_count(std::size_t block) const {
-    return static_cast<int>(std::min<std::int64_t>(
-        rows_per_block, std::int64_t{window.max_y} - first_row(block) + 1));
+    return static_cast<int>(
+        std::min<std::int64_t>(rows_per_block, std::int64_t{window.max_y} - first_row(block) + 1));
 }
 
 BlockGrid block_grid(const ExrPart& part) {
     if (part.tiled)
-        return {part.data_window, static_cast<int>(std::min<std::int64_t>(
-                                      part.header.tileDescription().ySize, part.data_window.height()))};
+        return {part.data_window, static_cast<int>(std::min<std::int64_t>(part.header.tileDescription().ySize,
+                                                                          part.data_window.height()))};
     const int lines = lines_of_chunk(part.header.compression());
     return {part.data_window, lines * std::max(1, kFewestRows / lines)};
 }
 
-Result<std::unique_ptr<BlockSource>> make_block_source(std::shared_ptr<const ExrFile> file,
-                                                       std::size_t part, PlaneChannels planes) {
+Result<std::unique_ptr<BlockSource>> make_block_source(std::shared_ptr<const ExrFile> file, std::size_t part,
+                                                       PlaneChannels planes) {
     const ExrPart& header = file->parts()[part];
     if (header.deep)
-        return fail(ErrorCode::Unsupported, "the part is deep (several samples a pixel)",
-                    file->path());
+        return fail(ErrorCode::Unsupported, "the part is deep (several samples a pixel)", file->path());
     for (const auto channel : planes)
         if (channel && header.channels[*channel].subsampled)
             return fail(ErrorCode::Unsupported,
-                        "channel \"" + header.channels[*channel].name + "\" is sub-sampled",
-                        file->path());
+                        "channel \"" + header.channels[*channel].name + "\" is sub-sampled", file->path());
     const BlockGrid grid = block_grid(header);
     if (grid.rows_per_block <= 0)
         return fail(ErrorCode::Damaged, "tiles of no rows", file->path());
@@ -122,8 +119,8 @@ Result<std::unique_ptr<BlockSource>> make_block_source(std::shared_ptr<const Exr
 
 BlockBuffer::BlockBuffer(const ExrPart& part, const PlaneChannels& planes, const BlockGrid& grid)
     : m_memory(bytes_needed(part, planes, grid)) {
-    const std::size_t samples = static_cast<std::size_t>(grid.window.width()) *
-                                static_cast<std::size_t>(grid.rows_per_block);
+    const std::size_t samples =
+        static_cast<std::size_t>(grid.window.width()) * static_cast<std::size_t>(grid.rows_per_block);
     void* at = m_memory.data();
     std::size_t space = m_memory.size();
     auto* next = static_cast<std::byte*>(std::align(kPlaneAlignment, 1, at, space));
@@ -138,8 +135,8 @@ BlockBuffer::BlockBuffer(const ExrPart& part, const PlaneChannels& planes, const
 
 std::uint64_t BlockBuffer::bytes_needed(const ExrPart& part, const PlaneChannels& planes,
                                         const BlockGrid& grid) {
-    const std::uint64_t samples = static_cast<std::uint64_t>(grid.window.width()) *
-                                  static_cast<std::uint64_t>(grid.rows_per_block);
+    const std::uint64_t samples =
+        static_cast<std::uint64_t>(grid.window.width()) * static_cast<std::uint64_t>(grid.rows_per_block);
     std::uint64_t bytes = kPlaneAlignment;
     for (const auto channel : planes)
         if (channel)
@@ -150,8 +147,8 @@ std::uint64_t BlockBuffer::bytes_needed(const ExrPart& part, const PlaneChannels
 PlanarBlock BlockBuffer::block(int first_row, int row_count) const {
     PlanarBlock out{first_row, row_count, {}};
     for (std::size_t plane = 0; plane < m_planes.size(); ++plane)
-        out.planes.push_back({m_planes[plane], m_types[plane],
-                              static_cast<std::ptrdiff_t>(sample_bytes(m_types[plane]))});
+        out.planes.push_back(
+            {m_planes[plane], m_types[plane], static_cast<std::ptrdiff_t>(sample_bytes(m_types[plane]))});
     return out;
 }
 

@@ -33,7 +33,7 @@ struct BlockGrid {
 /// the C++ API where 3.1.5's Core is slower (PIZ), lacks the codec (DWA) or is not trusted (B44).
 /// Planes are samples as stored. Refuses deep parts, sub-sampled channels among the wanted, and
 /// blocks beyond our limits. The source keeps the file open.
-[[nodiscard]] Result<std::unique_ptr<BlockSource>> make_block_source(
-    std::shared_ptr<const ExrFile> file, std::size_t part, PlaneChannels planes);
+[[nodiscard]] Result<std::unique_ptr<BlockSource>> make_block_source(std::shared_ptr<const ExrFile> file,
+                                                                     std::size_t part, PlaneChannels planes);
 
 }  // namespace osio::exr

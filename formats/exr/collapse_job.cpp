@@ -15,8 +15,7 @@ std::vector<std::string> CollapseJob::channel_names() const {
 Result<std::unique_ptr<BlockSource>> CollapseJob::open_source() const {
     PlaneChannels planes;
     for (std::size_t band = 0; band < plan.bands.size(); ++band)
-        planes.push_back(plan.weights.needs(band) ? std::optional(plan.bands[band].channel)
-                                                  : std::nullopt);
+        planes.push_back(plan.weights.needs(band) ? std::optional(plan.bands[band].channel) : std::nullopt);
     if (alpha)
         planes.emplace_back(alpha);
     return make_block_source(file, part_index, std::move(planes));
@@ -28,8 +27,8 @@ Result<CollapseJob> open_collapse(const std::string& path, const CollapseRequest
     return prepare_collapse(std::move(file), request, load_text);
 }
 
-Result<CollapseJob> prepare_collapse(std::shared_ptr<const ExrFile> file,
-                                     const CollapseRequest& request, const TextLoader& load_text) {
+Result<CollapseJob> prepare_collapse(std::shared_ptr<const ExrFile> file, const CollapseRequest& request,
+                                     const TextLoader& load_text) {
     const auto summaries = file->summaries();
     const auto selection = select_set(summaries, request);
     if (!selection)

@@ -34,8 +34,7 @@ struct CollapseJob {
 };
 
 /// Opens the file, chooses the set and makes the plan; every refusal comes from here.
-[[nodiscard]] Result<CollapseJob> open_collapse(const std::string& path,
-                                                const CollapseRequest& request,
+[[nodiscard]] Result<CollapseJob> open_collapse(const std::string& path, const CollapseRequest& request,
                                                 const TextLoader& load_text);
 
 /// The same for a file that is open already.

@@ -20,7 +20,7 @@ namespace {
 struct Place {
     int column = 0;
     int row = 0;
-    int width = 0;   ///< pixels that the grid expects
+    int width = 0;  ///< pixels that the grid expects
     int height = 0;
 };
 
@@ -49,6 +49,7 @@ class CoreReader final : public BlockReader {
 
   private:
     [[nodiscard]] exr_const_context_t context() const { return m_job.file->context(); }
+
     [[nodiscard]] int part_index() const { return static_cast<int>(m_job.part); }
 
     [[nodiscard]] tl::unexpected<Error> damaged(std::string what) const {
@@ -58,8 +59,7 @@ class CoreReader final : public BlockReader {
     Result<void> read_scanlines(int first, int count) {
         for (int row = 0; row < count;) {
             exr_chunk_info_t chunk{};
-            const auto code =
-                exr_read_scanline_chunk_info(context(), part_index(), first + row, &chunk);
+            const auto code = exr_read_scanline_chunk_info(context(), part_index(), first + row, &chunk);
             if (code != EXR_ERR_SUCCESS)
                 return core_failure(code, m_job.file->path());
             const Place place{0, row, m_job.grid.window.width(), std::min(chunk.height, count - row)};
@@ -74,8 +74,8 @@ class CoreReader final : public BlockReader {
         exr_get_tile_sizes(context(), part_index(), 0, 0, &tile_width, &tile_height);
         for (int column = 0; column < m_job.grid.window.width(); column += tile_width) {
             exr_chunk_info_t chunk{};
-            const auto code = exr_read_tile_chunk_info(context(), part_index(), column / tile_width,
-                                                       tile_row, 0, 0, &chunk);
+            const auto code = exr_read_tile_chunk_info(context(), part_index(), column / tile_width, tile_row,
+                                                       0, 0, &chunk);
             if (code != EXR_ERR_SUCCESS)
                 return core_failure(code, m_job.file->path());
             const int width = std::min(tile_width, m_job.grid.window.width() - column);
@@ -89,11 +89,10 @@ class CoreReader final : public BlockReader {
             return damaged("a chunk has another size than the header gives it");
         // Without compression Core 3.1.5 trusts the header and not the chunk's own length.
         if (chunk.compression == EXR_COMPRESSION_NONE && chunk.packed_size != chunk.unpacked_size)
-            return damaged("a chunk of " + std::to_string(chunk.packed_size) +
-                           " bytes, expected " + std::to_string(chunk.unpacked_size));
-        auto code = m_initialised
-                        ? exr_decoding_update(context(), part_index(), &chunk, &m_decode)
-                        : exr_decoding_initialize(context(), part_index(), &chunk, &m_decode);
+            return damaged("a chunk of " + std::to_string(chunk.packed_size) + " bytes, expected " +
+                           std::to_string(chunk.unpacked_size));
+        auto code = m_initialised ? exr_decoding_update(context(), part_index(), &chunk, &m_decode)
+                                  : exr_decoding_initialize(context(), part_index(), &chunk, &m_decode);
         if (code == EXR_ERR_SUCCESS) {
             if (!m_initialised)
                 match_channels();
@@ -130,11 +129,10 @@ class CoreReader final : public BlockReader {
                 continue;
             }
             const auto bytes = static_cast<std::size_t>(channel.bytes_per_element);
-            const std::size_t offset = static_cast<std::size_t>(place.row) *
-                                           static_cast<std::size_t>(m_job.grid.window.width()) +
-                                       static_cast<std::size_t>(place.column);
-            channel.decode_to_ptr =
-                reinterpret_cast<uint8_t*>(m_buffer.plane(*plane) + offset * bytes);
+            const std::size_t offset =
+                static_cast<std::size_t>(place.row) * static_cast<std::size_t>(m_job.grid.window.width()) +
+                static_cast<std::size_t>(place.column);
+            channel.decode_to_ptr = reinterpret_cast<uint8_t*>(m_buffer.plane(*plane) + offset * bytes);
             channel.user_data_type = channel.data_type;
             channel.user_bytes_per_element = channel.bytes_per_element;
             channel.user_pixel_stride = static_cast<int32_t>(bytes);

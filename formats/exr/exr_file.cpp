@@ -31,15 +31,22 @@ void keep_core_message(exr_const_context_t, exr_result_t, const char* message) {
 }
 
 constexpr std::array<std::pair<std::string_view, Imf::Compression>, 10> kCompressions{{
-    {"none", Imf::NO_COMPRESSION}, {"rle", Imf::RLE_COMPRESSION}, {"zips", Imf::ZIPS_COMPRESSION},
-    {"zip", Imf::ZIP_COMPRESSION}, {"piz", Imf::PIZ_COMPRESSION}, {"pxr24", Imf::PXR24_COMPRESSION},
-    {"b44", Imf::B44_COMPRESSION}, {"b44a", Imf::B44A_COMPRESSION}, {"dwaa", Imf::DWAA_COMPRESSION},
+    {"none", Imf::NO_COMPRESSION},
+    {"rle", Imf::RLE_COMPRESSION},
+    {"zips", Imf::ZIPS_COMPRESSION},
+    {"zip", Imf::ZIP_COMPRESSION},
+    {"piz", Imf::PIZ_COMPRESSION},
+    {"pxr24", Imf::PXR24_COMPRESSION},
+    {"b44", Imf::B44_COMPRESSION},
+    {"b44a", Imf::B44A_COMPRESSION},
+    {"dwaa", Imf::DWAA_COMPRESSION},
     {"dwab", Imf::DWAB_COMPRESSION},
 }};
 
 /// The size of a readable regular OpenEXR file.
 Result<std::uint64_t> check_file(const std::string& path) {
     struct stat status {};
+
     if (::stat(path.c_str(), &status) != 0)
         return fail(ErrorCode::Io, std::strerror(errno), path);
     if (S_ISDIR(status.st_mode))
@@ -48,8 +55,7 @@ Result<std::uint64_t> check_file(const std::string& path) {
     if (!in)
         return fail(ErrorCode::Io, std::strerror(errno), path);
     if (!starts_like_exr(path))
-        return fail(ErrorCode::NotSpectral,
-                    "is no OpenEXR file (its first bytes are not 76 2F 31 01)", path);
+        return fail(ErrorCode::NotSpectral, "is no OpenEXR file (its first bytes are not 76 2F 31 01)", path);
     return static_cast<std::uint64_t>(status.st_size);
 }
 
@@ -65,24 +71,21 @@ bool plausible(const Imath::Box2i& box) {
 }
 
 SampleType sample_type(Imf::PixelType type) {
-    return type == Imf::HALF ? SampleType::Half
-           : type == Imf::FLOAT ? SampleType::Float
-                                : SampleType::Uint;
+    return type == Imf::HALF ? SampleType::Half : type == Imf::FLOAT ? SampleType::Float : SampleType::Uint;
 }
 
 std::vector<ExrChannel> channels_of(const Imf::Header& header) {
     std::vector<ExrChannel> out;
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
         const Imf::Channel& channel = c.channel();
-        out.push_back({c.name(), sample_type(channel.type),
-                       channel.xSampling != 1 || channel.ySampling != 1});
+        out.push_back(
+            {c.name(), sample_type(channel.type), channel.xSampling != 1 || channel.ySampling != 1});
     }
     return out;
 }
 
 void warn_of_dialect(ExrPart& part) {
-    const auto dialect =
-        recognise_dialect(part.layout.channel_names, part.summary().attribute_names);
+    const auto dialect = recognise_dialect(part.layout.channel_names, part.summary().attribute_names);
     if (dialect)
         part.layout.warnings.push_back("found " + *dialect + ": a dialect that is not read yet");
 }

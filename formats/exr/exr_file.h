@@ -34,6 +34,7 @@ struct Window {
     int min_x = 0, min_y = 0, max_x = 0, max_y = 0;
 
     [[nodiscard]] int width() const { return max_x - min_x + 1; }
+
     [[nodiscard]] int height() const { return max_y - min_y + 1; }
 
     friend bool operator==(const Window&, const Window&) = default;
@@ -68,7 +69,9 @@ class ExrFile {
     ~ExrFile();
 
     [[nodiscard]] const std::string& path() const { return m_path; }
+
     [[nodiscard]] const std::vector<ExrPart>& parts() const { return m_parts; }
+
     [[nodiscard]] std::vector<PartSummary> summaries() const;
 
     /// For OpenEXRCore's functions; null where Core cannot read the file and the C++ API can.

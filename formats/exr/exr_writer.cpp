@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/exr/exr_writer.h>
-
 #include <formats/files/checked_file.h>
 #include <formats/files/replacement_file.h>
 
-#include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfThreading.h>
 
+#include <Imath/half.h>
 #include <cmath>
 #include <exception>
 #include <optional>
@@ -37,7 +36,9 @@ class CheckedStream final : public Imf::OStream {
         if (!m_file.write(bytes, static_cast<std::size_t>(count)))
             throw std::runtime_error(m_file.failure());
     }
+
     std::uint64_t tellp() override { return m_file.position(); }
+
     void seekp(std::uint64_t position) override { m_file.seek(position); }
 
     [[nodiscard]] files::CheckedFile& file() { return m_file; }
@@ -63,8 +64,8 @@ struct ExrWriter::State {
         : file(std::move(replacement)), channels(output_channels.begin(), output_channels.end()),
           stream(file.path()), output(std::in_place, stream, header, Imf::globalThreadCount()),
           first_row(header.dataWindow().min.y), min_x(header.dataWindow().min.x),
-          width(header.dataWindow().max.x - min_x + 1),
-          rows_left(header.dataWindow().max.y - first_row + 1) {}
+          width(header.dataWindow().max.x - min_x + 1), rows_left(header.dataWindow().max.y - first_row + 1) {
+    }
 
     files::ReplacementFile file;
     std::vector<OutputChannel> channels;
@@ -77,6 +78,7 @@ struct ExrWriter::State {
 };
 
 ExrWriter::ExrWriter(std::unique_ptr<State> state) : m_state(std::move(state)) {}
+
 ExrWriter::~ExrWriter() = default;
 
 Result<std::unique_ptr<ExrWriter>> ExrWriter::create(const std::string& path, Imf::Header header,
@@ -102,15 +104,14 @@ Result<void> ExrWriter::write_rows(int row_count, std::span<const ChannelRows> c
             const auto& rows = channels[c];
             buffer.insert(state.channels[c].name,
                           Imf::Slice::Make(pixel_type(state.channels[c].type), rows.data,
-                                           Imath::V2i(state.min_x, state.first_row), state.width,
-                                           row_count, static_cast<std::size_t>(rows.pixel_stride_bytes),
+                                           Imath::V2i(state.min_x, state.first_row), state.width, row_count,
+                                           static_cast<std::size_t>(rows.pixel_stride_bytes),
                                            static_cast<std::size_t>(rows.row_stride_bytes)));
         }
         state.output->setFrameBuffer(buffer);
         state.output->writePixels(row_count);
     } catch (const std::exception& error) {
-        return fail(ErrorCode::Io, std::string("cannot be written: ") + error.what(),
-                    state.file.target());
+        return fail(ErrorCode::Io, std::string("cannot be written: ") + error.what(), state.file.target());
     }
     state.first_row += row_count;
     state.rows_left -= row_count;
@@ -150,8 +151,8 @@ Result<void> ExrSink::write_rows(int, int row_count, std::span<const float* cons
             }
             data = halves;
         }
-        channels.push_back({static_cast<const std::byte*>(data), bytes,
-                            bytes * static_cast<std::ptrdiff_t>(m_width)});
+        channels.push_back(
+            {static_cast<const std::byte*>(data), bytes, bytes * static_cast<std::ptrdiff_t>(m_width)});
     }
     return m_writer->write_rows(row_count, channels);
 }

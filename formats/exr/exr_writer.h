@@ -38,8 +38,8 @@ struct ChannelRows {
 class ExrWriter {
   public:
     /// `header` gives windows, compression and attributes; its channels are replaced.
-    [[nodiscard]] static Result<std::unique_ptr<ExrWriter>> create(
-        const std::string& path, Imf::Header header, std::span<const OutputChannel> channels);
+    [[nodiscard]] static Result<std::unique_ptr<ExrWriter>>
+    create(const std::string& path, Imf::Header header, std::span<const OutputChannel> channels);
 
     ExrWriter(const ExrWriter&) = delete;
     ExrWriter& operator=(const ExrWriter&) = delete;
@@ -67,6 +67,7 @@ class ExrSink final : public RowSink {
 
     [[nodiscard]] Result<void> write_rows(int first_row, int row_count,
                                           std::span<const float* const> planes) override;
+
     [[nodiscard]] Result<void> finish() { return m_writer->finish(); }
 
     /// Samples that did not fit a half.

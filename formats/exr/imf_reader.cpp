@@ -49,10 +49,9 @@ class ImfReader final : public BlockReader {
             if (!m_job.planes[plane])
                 continue;
             const ExrChannel& channel = m_part.channels[*m_job.planes[plane]];
-            out.insert(channel.name,
-                       Imf::Slice::Make(pixel_type(channel.type), m_buffer.plane(plane),
-                                        Imath::V2i(window.min_x, first_row), window.width(),
-                                        m_job.grid.rows_per_block));
+            out.insert(channel.name, Imf::Slice::Make(pixel_type(channel.type), m_buffer.plane(plane),
+                                                      Imath::V2i(window.min_x, first_row), window.width(),
+                                                      m_job.grid.rows_per_block));
         }
         return out;
     }

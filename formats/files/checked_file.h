@@ -22,6 +22,7 @@ class CheckedFile {
     bool seek(std::uint64_t position);
 
     [[nodiscard]] std::uint64_t position() const { return m_position; }
+
     /// One past the last byte that was written.
     [[nodiscard]] std::uint64_t size() const { return m_size; }
 

@@ -26,6 +26,7 @@ tl::unexpected<Error> system_failure(const std::string& what, const std::string&
 /// that its owner has protected would go round the protection.
 Result<void> check_target(const std::string& target) {
     struct stat status {};
+
     if (::stat(target.c_str(), &status) != 0)
         return {};
     if (S_ISDIR(status.st_mode))
@@ -46,14 +47,16 @@ Result<ReplacementFile> ReplacementFile::create(const std::string& target) {
     const std::string name = slash == std::string::npos ? target : target.substr(slash + 1);
     std::random_device random;
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
-        std::string path = folder + "." + name.substr(0, kMostNameBytes) + "." +
-                           std::to_string(random()) + ".tmp";
+        std::string path =
+            folder + "." + name.substr(0, kMostNameBytes) + "." + std::to_string(random()) + ".tmp";
         const int descriptor = ::open(path.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
         if (descriptor < 0 && errno == EEXIST)
             continue;
         if (descriptor < 0)
             return system_failure("cannot be written", target);
+
         struct stat status {};
+
         if (::stat(target.c_str(), &status) == 0)
             ::fchmod(descriptor, status.st_mode & 07777);
         ::close(descriptor);

@@ -21,6 +21,7 @@ class ReplacementFile {
     ~ReplacementFile();
 
     [[nodiscard]] const std::string& path() const { return m_path; }
+
     [[nodiscard]] const std::string& target() const { return m_target; }
 
     /// Gives the temporary the target's name, and the target's permissions where there was one.

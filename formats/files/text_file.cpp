@@ -11,6 +11,7 @@ namespace osio::files {
 
 Result<std::string> read_text(const std::string& path) {
     struct stat status {};
+
     if (::stat(path.c_str(), &status) != 0)
         return fail(ErrorCode::Io, std::strerror(errno), path);
     if (!S_ISREG(status.st_mode))
@@ -23,8 +24,7 @@ Result<std::string> read_text(const std::string& path) {
     text.resize(static_cast<std::size_t>(in.gcount()));
     if (text.size() > kMostTextBytes)
         return fail(ErrorCode::Io,
-                    "is longer than " + std::to_string(kMostTextBytes) + " bytes, expected a table",
-                    path);
+                    "is longer than " + std::to_string(kMostTextBytes) + " bytes, expected a table", path);
     if (in.bad())
         return fail(ErrorCode::Io, "cannot be read", path);
     return text;
@@ -37,9 +37,7 @@ std::string seen_from(const std::string& folder, std::string_view path) {
 }
 
 TextLoader text_loader(std::string folder) {
-    return [folder = std::move(folder)](std::string_view path) {
-        return read_text(seen_from(folder, path));
-    };
+    return [folder = std::move(folder)](std::string_view path) { return read_text(seen_from(folder, path)); };
 }
 
 std::string folder_of(const std::string& path) {

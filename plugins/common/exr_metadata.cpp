@@ -57,14 +57,14 @@ constexpr std::array<Renamed, 9> kRenamed{{
 constexpr std::array<std::string_view, 3> kMatrices{"worldToCamera", "worldToNDC", "worldToScreen"};
 
 /// Metadata of OIIO that follows from something else in the file.
-constexpr std::array<std::string_view, 6> kDerived{
-    "YResolution", "ResolutionUnit", "planarconfig", "textureformat", "openexr:lineOrder",
-    "openexr:roundingmode"};
+constexpr std::array<std::string_view, 6> kDerived{"YResolution",       "ResolutionUnit",
+                                                   "planarconfig",      "textureformat",
+                                                   "openexr:lineOrder", "openexr:roundingmode"};
 
 /// Prefixes of metadata that belongs to other formats.
 constexpr std::array<std::string_view, 20> kOtherFormats{
-    "bmp",  "cineon", "dpx",     "fits", "gif", "heif", "hdr",  "ico",  "iff",  "jpeg",
-    "jpg",  "openexr", "png",    "psd",  "ptex", "raw",  "rla",  "sgi",  "tiff", "webp"};
+    "bmp", "cineon",  "dpx", "fits", "gif",  "heif", "hdr", "ico", "iff",  "jpeg",
+    "jpg", "openexr", "png", "psd",  "ptex", "raw",  "rla", "sgi", "tiff", "webp"};
 
 /// Attributes of a type unknown to OpenEXR travel as bytes under `prefix + type + "/" + name`.
 constexpr std::string_view kOpaquePrefix = "exr:opaque/";
@@ -145,9 +145,8 @@ bool add_codes(const Imf::Attribute& attribute, const std::string& name, OIIO::I
     }
     if (const auto* key = as<Imf::KeyCodeAttribute>(attribute)) {
         const Imf::KeyCode& k = key->value();
-        const std::array<int, 7> code{k.filmMfcCode(), k.filmType(),      k.prefix(),
-                                      k.count(),       k.perfOffset(),    k.perfsPerFrame(),
-                                      k.perfsPerCount()};
+        const std::array<int, 7> code{k.filmMfcCode(), k.filmType(),      k.prefix(),       k.count(),
+                                      k.perfOffset(),  k.perfsPerFrame(), k.perfsPerCount()};
         spec.attribute(name, OIIO::TypeKeyCode, code.data());
         return true;
     }
@@ -169,24 +168,23 @@ bool add_codes(const Imf::Attribute& attribute, const std::string& name, OIIO::I
 
 void add_attribute(const std::string& exr, const Imf::Attribute& attribute, OIIO::ImageSpec& spec) {
     const std::string name = oiio_name(exr);
-    const bool added =
-        add_lists(attribute, name, spec) || add_codes(attribute, name, spec) ||
-        add_plain<Imf::IntAttribute>(attribute, name, TypeDesc::INT, spec) ||
-        add_plain<Imf::FloatAttribute>(attribute, name, TypeDesc::FLOAT, spec) ||
-        add_plain<Imf::DoubleAttribute>(attribute, name, TypeDesc::DOUBLE, spec) ||
-        add_plain<Imf::ChromaticitiesAttribute>(attribute, name, kChromaticities, spec) ||
-        add_plain<Imf::V2iAttribute>(attribute, name, kV2i, spec) ||
-        add_plain<Imf::V2fAttribute>(attribute, name, kV2f, spec) ||
-        add_plain<Imf::V2dAttribute>(attribute, name, kV2d, spec) ||
-        add_plain<Imf::V3iAttribute>(attribute, name, kV3i, spec) ||
-        add_plain<Imf::V3fAttribute>(attribute, name, kV3f, spec) ||
-        add_plain<Imf::V3dAttribute>(attribute, name, kV3d, spec) ||
-        add_plain<Imf::M33fAttribute>(attribute, name, kM33f, spec) ||
-        add_plain<Imf::M44fAttribute>(attribute, name, kM44f, spec) ||
-        add_plain<Imf::M33dAttribute>(attribute, name, kM33d, spec) ||
-        add_plain<Imf::M44dAttribute>(attribute, name, kM44d, spec) ||
-        add_plain<Imf::Box2iAttribute>(attribute, name, kBox2i, spec) ||
-        add_plain<Imf::Box2fAttribute>(attribute, name, kBox2f, spec);
+    const bool added = add_lists(attribute, name, spec) || add_codes(attribute, name, spec) ||
+                       add_plain<Imf::IntAttribute>(attribute, name, TypeDesc::INT, spec) ||
+                       add_plain<Imf::FloatAttribute>(attribute, name, TypeDesc::FLOAT, spec) ||
+                       add_plain<Imf::DoubleAttribute>(attribute, name, TypeDesc::DOUBLE, spec) ||
+                       add_plain<Imf::ChromaticitiesAttribute>(attribute, name, kChromaticities, spec) ||
+                       add_plain<Imf::V2iAttribute>(attribute, name, kV2i, spec) ||
+                       add_plain<Imf::V2fAttribute>(attribute, name, kV2f, spec) ||
+                       add_plain<Imf::V2dAttribute>(attribute, name, kV2d, spec) ||
+                       add_plain<Imf::V3iAttribute>(attribute, name, kV3i, spec) ||
+                       add_plain<Imf::V3fAttribute>(attribute, name, kV3f, spec) ||
+                       add_plain<Imf::V3dAttribute>(attribute, name, kV3d, spec) ||
+                       add_plain<Imf::M33fAttribute>(attribute, name, kM33f, spec) ||
+                       add_plain<Imf::M44fAttribute>(attribute, name, kM44f, spec) ||
+                       add_plain<Imf::M33dAttribute>(attribute, name, kM33d, spec) ||
+                       add_plain<Imf::M44dAttribute>(attribute, name, kM44d, spec) ||
+                       add_plain<Imf::Box2iAttribute>(attribute, name, kBox2i, spec) ||
+                       add_plain<Imf::Box2fAttribute>(attribute, name, kBox2f, spec);
     if (added)
         return;
     if (const auto* opaque = as<Imf::OpaqueAttribute>(attribute))
@@ -201,14 +199,18 @@ class BytesAttribute final : public Imf::Attribute {
         : m_type(std::move(type)), m_bytes(std::move(bytes)) {}
 
     [[nodiscard]] const char* typeName() const override { return m_type.c_str(); }
+
     [[nodiscard]] Attribute* copy() const override { return new BytesAttribute(m_type, m_bytes); }
+
     void writeValueTo(Imf::OStream& stream, int) const override {
         stream.write(m_bytes.data(), static_cast<int>(m_bytes.size()));
     }
+
     void readValueFrom(Imf::IStream& stream, int size, int) override {
         m_bytes.resize(static_cast<std::size_t>(size));
         stream.read(m_bytes.data(), size);
     }
+
     void copyValueFrom(const Attribute& other) override {
         if (const auto* same = dynamic_cast<const BytesAttribute*>(&other))
             m_bytes = same->m_bytes;
@@ -263,8 +265,7 @@ bool insert_codes(const OIIO::ParamValue& value, const std::string& name, Imf::H
     }
     if (type == OIIO::TypeKeyCode) {
         const auto k = value_at<std::array<int, 7>>(value.data());
-        header.insert(name, Imf::KeyCodeAttribute(
-                                Imf::KeyCode(k[0], k[1], k[2], k[3], k[4], k[5], k[6])));
+        header.insert(name, Imf::KeyCodeAttribute(Imf::KeyCode(k[0], k[1], k[2], k[3], k[4], k[5], k[6])));
         return true;
     }
     if (type == OIIO::TypeRational) {
@@ -274,8 +275,8 @@ bool insert_codes(const OIIO::ParamValue& value, const std::string& name, Imf::H
     }
     if (name == exr::attribute::kChromaticities && type == kChromaticities) {
         const auto c = value_at<std::array<float, 8>>(value.data());
-        header.insert(name, Imf::ChromaticitiesAttribute(Imf::Chromaticities(
-                                {c[0], c[1]}, {c[2], c[3]}, {c[4], c[5]}, {c[6], c[7]})));
+        header.insert(name, Imf::ChromaticitiesAttribute(
+                                Imf::Chromaticities({c[0], c[1]}, {c[2], c[3]}, {c[4], c[5]}, {c[6], c[7]})));
         return true;
     }
     return false;

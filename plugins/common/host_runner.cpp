@@ -3,6 +3,7 @@
 
 #include <OpenImageIO/imageio.h>
 #include <OpenImageIO/parallel.h>
+
 #include <algorithm>
 #include <thread>
 
@@ -12,9 +13,8 @@ HostRunner::HostRunner(int threads, std::size_t blocks) {
     int allowed = threads > 0 ? threads : OIIO::get_int_attribute("threads");
     if (allowed <= 0)
         allowed = static_cast<int>(std::thread::hardware_concurrency());
-    m_count = static_cast<unsigned>(
-        std::clamp<std::size_t>(static_cast<std::size_t>(std::max(allowed, 1)), 1,
-                                std::max<std::size_t>(blocks, 1)));
+    m_count = static_cast<unsigned>(std::clamp<std::size_t>(static_cast<std::size_t>(std::max(allowed, 1)), 1,
+                                                            std::max<std::size_t>(blocks, 1)));
 }
 
 void HostRunner::run(const std::function<void(unsigned worker)>& body) {

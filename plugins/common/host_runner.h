@@ -12,6 +12,7 @@ class HostRunner final : public Runner {
     HostRunner(int threads, std::size_t blocks);
 
     [[nodiscard]] unsigned worker_count() const override { return m_count; }
+
     void run(const std::function<void(unsigned worker)>& body) override;
 
   private:

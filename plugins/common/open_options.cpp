@@ -39,8 +39,8 @@ Result<void> apply_query(std::string_view query, CollapseRequest& request) {
     for (const std::string_view option : split(query, '&')) {
         const auto equals = option.find('=');
         if (equals == std::string_view::npos)
-            return fail(ErrorCode::Usage, "found \"" + std::string(option) +
-                                              "\" in the query, expected key=value");
+            return fail(ErrorCode::Usage,
+                        "found \"" + std::string(option) + "\" in the query, expected key=value");
         OSIO_CHECK_OK(set_option(request, option.substr(0, equals), option.substr(equals + 1)));
     }
     return {};
@@ -88,8 +88,7 @@ Result<OpenRequest> read_recipe(const std::string& path) {
         const auto equals = line.find('=');
         if (equals == std::string_view::npos)
             return fail(ErrorCode::Usage,
-                        "found \"" + std::string(line.substr(0, 60)) + "\", expected key = value",
-                        where);
+                        "found \"" + std::string(line.substr(0, 60)) + "\", expected key = value", where);
         const std::string_view key = trim(line.substr(0, equals));
         std::string value(trim(line.substr(equals + 1)));
         if (key == kSource) {

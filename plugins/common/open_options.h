@@ -5,6 +5,7 @@
 #include <osio/collapse/request.h>
 
 #include <OpenImageIO/imageio.h>
+
 #include <string>
 #include <string_view>
 

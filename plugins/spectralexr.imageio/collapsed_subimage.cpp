@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <plugins/spectralexr.imageio/subimage.h>
-
 #include <plugins/common/exr_metadata.h>
 #include <plugins/spectralexr.imageio/spec.h>
+#include <plugins/spectralexr.imageio/subimage.h>
 
 #include <formats/exr/output_header.h>
 
@@ -43,8 +42,8 @@ class CollapsedSubimage final : public Subimage {
     [[nodiscard]] Result<void> read_rows(RowRange rows, std::byte* out, Runner& runner) override {
         InterleavedSink sink(rows.first, static_cast<std::size_t>(spec().width),
                              reinterpret_cast<float*>(out));
-        const auto counts = collapse_stream(source(), m_job.plan, m_job.alpha.has_value(), rows, sink,
-                                            runner, {});
+        const auto counts =
+            collapse_stream(source(), m_job.plan, m_job.alpha.has_value(), rows, sink, runner, {});
         if (!counts)
             return tl::unexpected(counts.error());
         return {};

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <plugins/spectralexr.imageio/input.h>
-
 #include <plugins/common/host_runner.h>
+#include <plugins/spectralexr.imageio/input.h>
 
 #include <formats/files/text_file.h>
 
@@ -25,8 +24,7 @@ bool debug_wanted() {
 
 /// OIIO tries every reader on files that their own reader refused, and says so with this hint.
 bool is_last_resort(const OIIO::ImageSpec* config) {
-    return config != nullptr && config->get_int_attribute("nowait") != 0 &&
-           !has_spectral_hint(*config);
+    return config != nullptr && config->get_int_attribute("nowait") != 0 && !has_spectral_hint(*config);
 }
 
 /// Options of a collapse mean nothing without a space to collapse to.
@@ -67,8 +65,7 @@ bool SpectralExrInput::open(const std::string& name, OIIO::ImageSpec& spec) {
     return open_with(name, spec, nullptr);
 }
 
-bool SpectralExrInput::open(const std::string& name, OIIO::ImageSpec& spec,
-                            const OIIO::ImageSpec& config) {
+bool SpectralExrInput::open(const std::string& name, OIIO::ImageSpec& spec, const OIIO::ImageSpec& config) {
     return open_with(name, spec, &config);
 }
 
@@ -114,16 +111,14 @@ Result<void> SpectralExrInput::load(const std::string& name, const OIIO::ImageSp
 
 Result<void> SpectralExrInput::add_raw_subimages(const std::shared_ptr<const exr::ExrFile>& file,
                                                  const CollapseRequest& request) {
-    const BandNames names = request.names == OutputNames::Layout ? BandNames::AsStored
-                                                                 : BandNames::CommaFree;
+    const BandNames names = request.names == OutputNames::Layout ? BandNames::AsStored : BandNames::CommaFree;
     std::size_t first = 0, end = file->parts().size();
     if (!request.part.empty()) {
         OSIO_TRY(first, select_part(file->summaries(), request.part));
         end = first + 1;
     }
     for (std::size_t part = first; part < end; ++part) {
-        OSIO_TRY(auto subimage, make_raw_subimage(file, part, names,
-                                                        static_cast<int>(end - first)));
+        OSIO_TRY(auto subimage, make_raw_subimage(file, part, names, static_cast<int>(end - first)));
         m_subimages.push_back(std::move(subimage));
     }
     return {};

@@ -7,6 +7,7 @@
 #include <formats/exr/exr_file.h>
 
 #include <OpenImageIO/imageio.h>
+
 #include <memory>
 #include <vector>
 
@@ -20,16 +21,18 @@ namespace osio::plugin {
 class SpectralExrInput final : public OIIO::ImageInput {
   public:
     [[nodiscard]] const char* format_name() const override { return "spectralexr"; }
+
     [[nodiscard]] int supports(OIIO::string_view feature) const override;
     [[nodiscard]] bool valid_file(const std::string& filename) const override;
     bool open(const std::string& name, OIIO::ImageSpec& spec) override;
     bool open(const std::string& name, OIIO::ImageSpec& spec, const OIIO::ImageSpec& config) override;
     bool close() override;
+
     [[nodiscard]] int current_subimage() const override { return m_current; }
+
     bool seek_subimage(int subimage, int miplevel) override;
     bool read_native_scanline(int subimage, int miplevel, int y, int z, void* data) override;
-    bool read_native_scanlines(int subimage, int miplevel, int ybegin, int yend, int z,
-                               void* data) override;
+    bool read_native_scanlines(int subimage, int miplevel, int ybegin, int yend, int z, void* data) override;
 
   private:
     bool open_with(const std::string& name, OIIO::ImageSpec& spec, const OIIO::ImageSpec* config);
@@ -48,6 +51,7 @@ class SpectralExrInput final : public OIIO::ImageInput {
         RowRange rows;
         std::vector<std::byte> pixels;
     };
+
     Cache m_cache;
 };
 

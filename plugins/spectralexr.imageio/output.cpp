@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <plugins/spectralexr.imageio/output.h>
-
 #include <plugins/common/exr_metadata.h>
+#include <plugins/spectralexr.imageio/output.h>
 
 #include <formats/exr/exr_file.h>
 #include <formats/exr/output_header.h>
@@ -53,8 +52,8 @@ void set_compression(const OIIO::ImageSpec& spec, Imf::Header& header) {
     const auto [name, quality] = spec.decode_compression_metadata("zip", -1);
     header.compression() =
         exr::find_compression(std::string_view(name.data(), name.size())).value_or(Imf::ZIP_COMPRESSION);
-    const bool dwa = header.compression() == Imf::DWAA_COMPRESSION ||
-                     header.compression() == Imf::DWAB_COMPRESSION;
+    const bool dwa =
+        header.compression() == Imf::DWAA_COMPRESSION || header.compression() == Imf::DWAB_COMPRESSION;
     if (dwa && quality > 0)
         header.dwaCompressionLevel() = static_cast<float>(quality);
     if (!dwa && quality >= 1 && quality <= 9)
@@ -69,8 +68,8 @@ SpectralExrOutput::~SpectralExrOutput() {
 
 int SpectralExrOutput::supports(OIIO::string_view feature) const {
     constexpr std::array<std::string_view, 7> kSupported{
-        "alpha",           "nchannels", "channelformats",    "displaywindow",
-        "origin",          "negativeorigin", "arbitrary_metadata"};
+        "alpha",  "nchannels",      "channelformats",    "displaywindow",
+        "origin", "negativeorigin", "arbitrary_metadata"};
     const std::string_view name(feature.data(), feature.size());
     return std::find(kSupported.begin(), kSupported.end(), name) != kSupported.end();
 }
@@ -99,8 +98,7 @@ Result<void> SpectralExrOutput::start() {
     m_layout = parse_channel_layout(layout_names(m_spec.channelnames), DecimalMark::Comma);
     const auto& names = m_layout.channel_names;
     if (names.size() != static_cast<std::size_t>(m_spec.nchannels) ||
-        std::set<std::string>(names.begin(), names.end()).size() != names.size() ||
-        m_layout.find_channel(""))
+        std::set<std::string>(names.begin(), names.end()).size() != names.size() || m_layout.find_channel(""))
         return fail(ErrorCode::Usage, "every channel needs a name of its own");
     if (m_layout.sets.empty())
         return fail(ErrorCode::NotSpectral,
@@ -131,9 +129,9 @@ Result<void> SpectralExrOutput::start() {
         return {};
     }
     // Before anything is written: the source may be the file that is about to be replaced.
-    m_source_samples = preview_samples_of_file(
-        m_spec.get_string_attribute(kSourceAttribute),
-        static_cast<std::size_t>(m_spec.get_int_attribute(kSourcePartAttribute)));
+    m_source_samples =
+        preview_samples_of_file(m_spec.get_string_attribute(kSourceAttribute),
+                                static_cast<std::size_t>(m_spec.get_int_attribute(kSourcePartAttribute)));
     m_held.reserve(m_spec.image_bytes(true));
     return {};
 }
@@ -142,8 +140,8 @@ Result<std::unique_ptr<exr::ExrWriter>> SpectralExrOutput::make_writer(bool with
     Imf::Header header = header_of_windows(m_spec);
     set_compression(m_spec, header);
     insert_metadata(m_spec, header);
-    for (const char* name : {exr::attribute::kRecipe, exr::attribute::kPlan,
-                             exr::attribute::kWarnings, kSourceAttribute, kSourcePartAttribute})
+    for (const char* name : {exr::attribute::kRecipe, exr::attribute::kPlan, exr::attribute::kWarnings,
+                             kSourceAttribute, kSourcePartAttribute})
         header.erase(name);
     exr::complete_spectral_header(m_layout, header);
     if (!with_preview) {
@@ -162,17 +160,15 @@ bool SpectralExrOutput::write_scanline(int y, int z, OIIO::TypeDesc format, cons
     return write_scanlines(y, y + 1, z, format, data, xstride, OIIO::AutoStride);
 }
 
-bool SpectralExrOutput::write_scanlines(int ybegin, int yend, int z, OIIO::TypeDesc format,
-                                        const void* data, OIIO::stride_t xstride,
-                                        OIIO::stride_t ystride) {
+bool SpectralExrOutput::write_scanlines(int ybegin, int yend, int z, OIIO::TypeDesc format, const void* data,
+                                        OIIO::stride_t xstride, OIIO::stride_t ystride) {
     if (ybegin != m_next_row || yend <= ybegin || yend > m_spec.y + m_spec.height) {
         errorfmt("rows {} to {} were given, expected row {} next", ybegin, yend - 1, m_next_row);
         return false;
     }
     try {
         OIIO::stride_t zstride = OIIO::AutoStride;
-        m_spec.auto_stride(xstride, ystride, zstride, format, m_spec.nchannels, m_spec.width,
-                           yend - ybegin);
+        m_spec.auto_stride(xstride, ystride, zstride, format, m_spec.nchannels, m_spec.width, yend - ybegin);
         const void* const native =
             to_native_rectangle(m_spec.x, m_spec.x + m_spec.width, ybegin, yend, z, z + 1, format, data,
                                 xstride, ystride, zstride, m_scratch);
@@ -219,16 +215,15 @@ bool SpectralExrOutput::close() {
 Result<void> SpectralExrOutput::finish() {
     if (m_preview) {
         if (m_next_row != m_spec.y + m_spec.height)
-            return fail(ErrorCode::Io, "rows from " + std::to_string(m_next_row) +
-                                           " on were never written");
+            return fail(ErrorCode::Io, "rows from " + std::to_string(m_next_row) + " on were never written");
         OSIO_CHECK_OK(write_held_rows(!drop_stale_preview()));
     }
     return m_writer->finish();
 }
 
 bool SpectralExrOutput::is_preview(std::size_t channel) const {
-    return m_preview && std::find(m_preview->rgb.begin(), m_preview->rgb.end(), channel) !=
-                            m_preview->rgb.end();
+    return m_preview &&
+           std::find(m_preview->rgb.begin(), m_preview->rgb.end(), channel) != m_preview->rgb.end();
 }
 
 bool SpectralExrOutput::drop_stale_preview() {

@@ -6,6 +6,7 @@
 #include <formats/exr/exr_writer.h>
 
 #include <OpenImageIO/imageio.h>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -27,6 +28,7 @@ class SpectralExrOutput final : public OIIO::ImageOutput {
     ~SpectralExrOutput() override;
 
     [[nodiscard]] const char* format_name() const override { return "spectralexr"; }
+
     [[nodiscard]] int supports(OIIO::string_view feature) const override;
     bool open(const std::string& name, const OIIO::ImageSpec& spec, OpenMode mode) override;
     bool write_scanline(int y, int z, OIIO::TypeDesc format, const void* data,
@@ -47,12 +49,12 @@ class SpectralExrOutput final : public OIIO::ImageOutput {
 
     bool m_open = false;
     std::string m_name;
-    ChannelLayout m_layout;                           ///< of the names that are written
+    ChannelLayout m_layout;  ///< of the names that are written
     std::vector<SampleType> m_types;
-    std::vector<std::ptrdiff_t> m_offsets;            ///< of each channel inside a pixel, bytes
+    std::vector<std::ptrdiff_t> m_offsets;  ///< of each channel inside a pixel, bytes
     std::optional<PreviewChannels> m_preview;
     std::vector<PreviewSample> m_source_samples;
-    std::vector<std::byte> m_held;                    ///< rows, where a preview must be checked first
+    std::vector<std::byte> m_held;  ///< rows, where a preview must be checked first
     std::unique_ptr<exr::ExrWriter> m_writer;
     int m_next_row = 0;
     std::vector<unsigned char> m_scratch;

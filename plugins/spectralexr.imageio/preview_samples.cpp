@@ -36,8 +36,7 @@ std::optional<PreviewChannels> PreviewChannels::find(const ChannelLayout& layout
     if (!r || !g || !b)
         return std::nullopt;
     for (const SpectralSet& set : layout.sets)
-        if (set.root.empty() && !set.bands.empty() &&
-            (set.family == Family::S0 || set.family == Family::T))
+        if (set.root.empty() && !set.bands.empty() && (set.family == Family::S0 || set.family == Family::T))
             return PreviewChannels{set, {*r, *g, *b}};
     return std::nullopt;
 }

@@ -32,7 +32,6 @@ struct PreviewChannels {
                                                          std::size_t width, std::size_t height);
 
 /// Samples from a few blocks of a file's part; empty where it cannot be read or lacks a preview.
-[[nodiscard]] std::vector<PreviewSample> preview_samples_of_file(const std::string& path,
-                                                                 std::size_t part);
+[[nodiscard]] std::vector<PreviewSample> preview_samples_of_file(const std::string& path, std::size_t part);
 
 }  // namespace osio::plugin

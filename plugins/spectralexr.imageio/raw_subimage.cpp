@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <plugins/spectralexr.imageio/subimage.h>
-
 #include <plugins/common/exr_metadata.h>
 #include <plugins/spectralexr.imageio/preview_samples.h>
 #include <plugins/spectralexr.imageio/spec.h>
+#include <plugins/spectralexr.imageio/subimage.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -40,8 +39,7 @@ class Interleaver final : public BlockVisitor {
         const int last = std::min(m_rows.last, block.first_row + block.row_count - 1);
         const std::size_t skip = static_cast<std::size_t>(first - block.first_row) * m_width;
         const std::size_t count = static_cast<std::size_t>(last - first + 1) * m_width;
-        std::byte* out =
-            m_out + static_cast<std::size_t>(first - m_rows.first) * m_width * m_pixel_bytes;
+        std::byte* out = m_out + static_cast<std::size_t>(first - m_rows.first) * m_width * m_pixel_bytes;
         for (const BandView& plane : block.planes) {
             const std::byte* from = plane.advanced(skip).data;
             if (plane.type == SampleType::Half)
@@ -68,9 +66,7 @@ class RawSubimage final : public Subimage {
     [[nodiscard]] Result<void> read_rows(RowRange rows, std::byte* out, Runner& runner) override {
         const auto width = static_cast<std::size_t>(spec().width);
         const std::size_t pixel_bytes = spec().pixel_bytes(true);
-        const auto start = [&] {
-            return std::make_unique<Interleaver>(rows, width, pixel_bytes, out);
-        };
+        const auto start = [&] { return std::make_unique<Interleaver>(rows, width, pixel_bytes, out); };
         return visit_blocks(source(), rows, runner, start, {});
     }
 };
@@ -78,8 +74,7 @@ class RawSubimage final : public Subimage {
 }  // namespace
 
 Result<std::unique_ptr<Subimage>> make_raw_subimage(std::shared_ptr<const exr::ExrFile> file,
-                                                    std::size_t part, BandNames names,
-                                                    int subimage_count) {
+                                                    std::size_t part, BandNames names, int subimage_count) {
     const exr::ExrPart& header = file->parts()[part];
     OIIO::ImageSpec spec = spec_of_windows(header);
     exr::PlaneChannels planes;

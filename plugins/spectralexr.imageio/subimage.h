@@ -8,6 +8,7 @@
 #include <osio/layout/presentation.h>
 
 #include <OpenImageIO/imageio.h>
+
 #include <cstddef>
 #include <memory>
 
@@ -18,6 +19,7 @@ class Subimage {
   public:
     Subimage(OIIO::ImageSpec spec, std::unique_ptr<BlockSource> source)
         : m_spec(std::move(spec)), m_source(std::move(source)) {}
+
     virtual ~Subimage() = default;
 
     [[nodiscard]] const OIIO::ImageSpec& spec() const { return m_spec; }
@@ -28,6 +30,7 @@ class Subimage {
     }
 
     [[nodiscard]] std::size_t row_bytes() const { return m_spec.scanline_bytes(true); }
+
     [[nodiscard]] std::size_t block_count() const { return m_source->block_count(); }
 
     /// Writes rows, both ends inside, one after another to `out`: row_bytes() each.
@@ -42,8 +45,9 @@ class Subimage {
 };
 
 /// A part with all its channels, as they are stored; one of `subimage_count` that the host sees.
-[[nodiscard]] Result<std::unique_ptr<Subimage>> make_raw_subimage(
-    std::shared_ptr<const exr::ExrFile> file, std::size_t part, BandNames names, int subimage_count);
+[[nodiscard]] Result<std::unique_ptr<Subimage>> make_raw_subimage(std::shared_ptr<const exr::ExrFile> file,
+                                                                  std::size_t part, BandNames names,
+                                                                  int subimage_count);
 
 /// A part's bands as three channels of a space, and alpha.
 [[nodiscard]] Result<std::unique_ptr<Subimage>> make_collapsed_subimage(exr::CollapseJob job);

@@ -2,11 +2,13 @@
 //
 // Blocks of both readers against OpenEXR's C++ API reading the whole frame.
 #include <formats/exr/block_source.h>
+
 #include <support/exr_files.h>
+
+#include <gtest/gtest.h>
 
 #include <cstring>
 #include <fstream>
-#include <gtest/gtest.h>
 #include <thread>
 
 namespace osio::exr {
@@ -28,9 +30,9 @@ void expect_same_as_openexr(const std::string& path, std::size_t part, const Pla
     const ExrPart& header = file->parts()[part];
     std::vector<std::vector<char>> expected;
     for (const auto channel : planes)
-        expected.push_back(channel ? test::read_with_openexr(path, static_cast<int>(part),
-                                                             header.channels[*channel].name)
-                                   : std::vector<char>());
+        expected.push_back(
+            channel ? test::read_with_openexr(path, static_cast<int>(part), header.channels[*channel].name)
+                    : std::vector<char>());
     int rows = 0;
     const std::size_t count = (*source)->block_count();
     for (std::size_t index = count; index-- > 0;) {
@@ -78,8 +80,8 @@ std::vector<PlaneChannels> choices(std::size_t count) {
 }
 
 const std::vector<Imf::Compression> kCompressions{
-    Imf::NO_COMPRESSION,  Imf::RLE_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION,
-    Imf::PIZ_COMPRESSION, Imf::PXR24_COMPRESSION, Imf::B44_COMPRESSION, Imf::B44A_COMPRESSION,
+    Imf::NO_COMPRESSION,   Imf::RLE_COMPRESSION,   Imf::ZIPS_COMPRESSION, Imf::ZIP_COMPRESSION,
+    Imf::PIZ_COMPRESSION,  Imf::PXR24_COMPRESSION, Imf::B44_COMPRESSION,  Imf::B44A_COMPRESSION,
     Imf::DWAA_COMPRESSION, Imf::DWAB_COMPRESSION};
 
 class EveryCompression : public testing::TestWithParam<Imf::Compression> {};
@@ -92,7 +94,10 @@ TEST_P(EveryCompression, BlocksAreThePixelsOfTheFile) {
         {{"R", Imf::HALF}, {"G", Imf::HALF}, {"B", Imf::HALF}},
         {{"R", Imf::HALF}, {"G", Imf::HALF}, {"B", Imf::HALF}, {"A", Imf::HALF}},
         {{"T.400nm", Imf::FLOAT}, {"T.500nm", Imf::FLOAT}, {"T.600nm", Imf::FLOAT}},
-        {{"A", Imf::FLOAT}, {"T.400nm", Imf::HALF}, {"T.500nm", Imf::UINT}, {"T.600nm", Imf::FLOAT},
+        {{"A", Imf::FLOAT},
+         {"T.400nm", Imf::HALF},
+         {"T.500nm", Imf::UINT},
+         {"T.600nm", Imf::FLOAT},
          {"Z", Imf::FLOAT}},
         band_channels("S0", 400, 10, 700, Imf::HALF)};
     for (const auto& channels : sets)
@@ -170,8 +175,7 @@ TEST(BlockSource, DeepPartsAreRefused) {
     part.deep = true;
     part.compression = Imf::ZIPS_COMPRESSION;
     write_exr(path, {part});
-    EXPECT_EQ(make_block_source(ExrFile::open(path).value(), 0, {0U}).error().code,
-              ErrorCode::Unsupported);
+    EXPECT_EQ(make_block_source(ExrFile::open(path).value(), 0, {0U}).error().code, ErrorCode::Unsupported);
 }
 
 TEST(BlockSource, ManyReadersShareOneFile) {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/exr/block_source.h>
 #include <formats/exr/exr_file.h>
+
 #include <support/exr_files.h>
 
 #include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfStringAttribute.h>
-#include <fstream>
 #include <gtest/gtest.h>
+
+#include <fstream>
 #include <sys/stat.h>
 
 namespace osio::exr {

@@ -2,14 +2,16 @@
 #include <formats/exr/exr_writer.h>
 #include <formats/files/replacement_file.h>
 #include <formats/files/text_file.h>
+
 #include <support/exr_files.h>
+
+#include <gtest/gtest.h>
 
 #include <Imath/half.h>
 #include <cmath>
 #include <csignal>
 #include <cstring>
 #include <fstream>
-#include <gtest/gtest.h>
 #include <limits>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -27,8 +29,8 @@ std::string content(const std::string& path) {
 
 std::unique_ptr<ExrSink> sink_for(const std::string& path, SampleType type, int width, int height) {
     const std::vector<OutputChannel> channels{{"R", type}, {"G", type}, {"B", type}};
-    return std::make_unique<ExrSink>(
-        ExrWriter::create(path, Imf::Header(width, height), channels).value(), type, width);
+    return std::make_unique<ExrSink>(ExrWriter::create(path, Imf::Header(width, height), channels).value(),
+                                     type, width);
 }
 
 TEST(ExrSink, FloatsAreStoredAsTheyAre) {
@@ -50,7 +52,8 @@ TEST(ExrSink, HalvesAreClampedToTheirLargestAndCounted) {
     const TestFolder folder;
     const std::string path = folder.path("a.exr");
     const float inf = std::numeric_limits<float>::infinity();
-    const std::vector<float> r{65504, 65505, -7e4F, inf, -inf, std::numeric_limits<float>::quiet_NaN(), 0.1F, 65503.9F};
+    const std::vector<float> r{65504, 65505,   -7e4F, inf, -inf, std::numeric_limits<float>::quiet_NaN(),
+                               0.1F,  65503.9F};
     auto sink = sink_for(path, SampleType::Half, 8, 1);
     const std::vector<const float*> planes{r.data(), r.data(), r.data()};
     ASSERT_TRUE(sink->write_rows(0, 1, planes));
@@ -97,10 +100,14 @@ class FileSizeLimit {
     explicit FileSizeLimit(rlim_t bytes) {
         ::signal(SIGXFSZ, SIG_IGN);
         ::getrlimit(RLIMIT_FSIZE, &m_old);
-        const struct rlimit limit {bytes, m_old.rlim_max};
+
+        const struct rlimit limit { bytes, m_old.rlim_max };
+
         ::setrlimit(RLIMIT_FSIZE, &limit);
     }
+
     ~FileSizeLimit() { ::setrlimit(RLIMIT_FSIZE, &m_old); }
+
     FileSizeLimit(const FileSizeLimit&) = delete;
     FileSizeLimit& operator=(const FileSizeLimit&) = delete;
 
@@ -140,7 +147,9 @@ TEST(ReplacementFile, PermissionsOfTheTargetStay) {
     auto file = files::ReplacementFile::create(path).value();
     std::ofstream(file.path()) << "new";
     ASSERT_TRUE(file.commit());
+
     struct stat status {};
+
     ASSERT_EQ(::stat(path.c_str(), &status), 0);
     EXPECT_EQ(status.st_mode & 07777U, 0640U);
     EXPECT_EQ(content(path), "new");
@@ -151,8 +160,7 @@ TEST(ReplacementFile, OnlyOrdinaryFilesAreReplaced) {
     EXPECT_EQ(files::ReplacementFile::create(folder.path("")).error().code, ErrorCode::Io);
     EXPECT_EQ(files::ReplacementFile::create("/dev/null").error().text(),
               "/dev/null: is not an ordinary file and is left alone");
-    EXPECT_EQ(files::ReplacementFile::create(folder.path("no/such/folder.exr")).error().code,
-              ErrorCode::Io);
+    EXPECT_EQ(files::ReplacementFile::create(folder.path("no/such/folder.exr")).error().code, ErrorCode::Io);
 }
 
 TEST(ReplacementFile, LongNamesStillHaveATemporary) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <osio/colour/illuminant.h>
 #include <osio/colour/rgb_space.h>
+
 #include <support/bound.h>
 #include <support/csv.h>
 
@@ -15,8 +16,7 @@ Matrix3 matrix_of(const Csv::Row& row) {
     return m;
 }
 
-void see_matrix(Bound& bound, const Matrix3& actual, const Matrix3& expected,
-                const std::string& where) {
+void see_matrix(Bound& bound, const Matrix3& actual, const Matrix3& expected, const std::string& where) {
     for (std::size_t r = 0; r < 3; ++r)
         for (std::size_t c = 0; c < 3; ++c)
             bound.see_absolute(actual.rows[r][c], expected.rows[r][c],
@@ -61,11 +61,10 @@ TEST(GoldenColour, PrimaryMatricesAreExact) {
     for (const auto& row : Csv(golden("rgb_matrices.csv")).rows) {
         if (row.at("variant") != "exact_from_xy" || !ids.contains(row.at("space")))
             continue;
-        const Matrix3 xyz_from_rgb_matrix =
-            xyz_from_rgb(find_output_space(ids.at(row.at("space"))).value());
+        const Matrix3 xyz_from_rgb_matrix = xyz_from_rgb(find_output_space(ids.at(row.at("space"))).value());
         const bool inverted = row.at("direction") == "XYZ_to_RGB";
-        see_matrix(bound, inverted ? inverse(xyz_from_rgb_matrix) : xyz_from_rgb_matrix,
-                   matrix_of(row), row.at("space") + " " + row.at("direction"));
+        see_matrix(bound, inverted ? inverse(xyz_from_rgb_matrix) : xyz_from_rgb_matrix, matrix_of(row),
+                   row.at("space") + " " + row.at("direction"));
     }
 }
 

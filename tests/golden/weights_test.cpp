@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <osio/data/tables.h>
+
 #include <support/bound.h>
 #include <support/csv.h>
 #include <support/sets.h>
@@ -73,9 +74,8 @@ TEST(GoldenWeights, ExactQuadratureIsTheIntegralOfThreeStraightLines) {
         const double k = 100 / integral(light.power, observer.curves[1], Quadrature::Exact);
         const char* const columns[] = {"X", "Y", "Z"};
         for (std::size_t c = 0; c < 3; ++c) {
-            const auto weights =
-                linear_basis_integrals(ohta.wavelengths_nm, light.power, observer.curves[c],
-                                       Extrapolation::Hold, Quadrature::Exact);
+            const auto weights = linear_basis_integrals(ohta.wavelengths_nm, light.power, observer.curves[c],
+                                                        Extrapolation::Hold, Quadrature::Exact);
             double sum = 0;
             for (std::size_t i = 0; i < weights.size(); ++i)
                 sum += k * weights[i] * reflectance[i];
@@ -98,11 +98,9 @@ TEST(GoldenWeights, RgbIsAdaptedFromTheLightsOwnWhite) {
         for (const auto& line : sprague.rows)
             reflectance.push_back(number(line, patch_of(row)));
         const auto plan = plan_of(set_of(Family::T, steps(360, 1, 830)),
-                                  "illuminant=" + row.at("illuminant") +
-                                      "&to=" + spaces.at(row.at("space")));
+                                  "illuminant=" + row.at("illuminant") + "&to=" + spaces.at(row.at("space")));
         const auto rgb = outputs_of(plan.value(), reflectance);
-        const std::string where = row.at("space") + " " + row.at("illuminant") + " patch " +
-                                  row.at("patch");
+        const std::string where = row.at("space") + " " + row.at("illuminant") + " patch " + row.at("patch");
         bound.see_absolute(rgb[0], number(row, "R"), where + " R");
         bound.see_absolute(rgb[1], number(row, "G"), where + " G");
         bound.see_absolute(rgb[2], number(row, "B"), where + " B");
@@ -134,15 +132,14 @@ TEST(GoldenWeights, DegenerateRadianceSpectra) {
             nm = number_list(row.at("wavelengths_nm"));
             values = number_list(row.at("values"));
         }
-        const bool finite = std::none_of(values.begin(), values.end(),
-                                         [](double v) { return !std::isfinite(v); });
+        const bool finite =
+            std::none_of(values.begin(), values.end(), [](double v) { return !std::isfinite(v); });
         if (!finite || name == "uv_only" || name == "all_zero")
             continue;
         // The layout has no two channels of one name: equal wavelengths are spelled differently.
         std::vector<std::string> names;
         for (std::size_t i = 0; i < nm.size(); ++i)
-            names.push_back("S0." + std::string(i % 3, '0') +
-                            format_wavelength(nm[i], DecimalMark::Comma));
+            names.push_back("S0." + std::string(i % 3, '0') + format_wavelength(nm[i], DecimalMark::Comma));
         const SpectralSet set = parse_channel_layout(names, DecimalMark::Comma).sets.at(0);
         for (const std::string extrapolate : {"hold", "zero"}) {
             const auto plan = plan_of(set, "to=xyz&extrapolate=" + extrapolate);

@@ -5,11 +5,12 @@
 #include <osio/base/half.h>
 #include <osio/collapse/kernel.h>
 
+#include <gtest/gtest.h>
+#include <hwy/highway.h>
+
 #include <Imath/half.h>
 #include <cmath>
 #include <cstring>
-#include <gtest/gtest.h>
-#include <hwy/highway.h>
 #include <limits>
 #include <random>
 
@@ -116,27 +117,29 @@ class KernelOn : public testing::TestWithParam<std::int64_t> {
         hwy::SetSupportedTargetsForTest(GetParam());
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     }
+
     void TearDown() override {
         hwy::SetSupportedTargetsForTest(0);
         hwy::GetChosenTarget().Update(hwy::SupportedTargets());
     }
 };
 
-const std::vector<std::vector<SampleType>> kTypes{
-    {SampleType::Half}, {SampleType::Float}, {SampleType::Half, SampleType::Float},
-    {SampleType::Uint, SampleType::Float}};
+const std::vector<std::vector<SampleType>> kTypes{{SampleType::Half},
+                                                  {SampleType::Float},
+                                                  {SampleType::Half, SampleType::Float},
+                                                  {SampleType::Uint, SampleType::Float}};
 
 TEST_P(KernelOn, FastAndReferenceAgreeToTheLastBit) {
     std::mt19937 random(1234);
     const std::size_t step = 32;  // pixels of a group on the widest instruction set
-    for (const std::size_t pixels : {std::size_t{0}, std::size_t{1}, std::size_t{3}, std::size_t{7},
-                                     step - 1, step, step + 1, 3 * step, 8 * step + 2, std::size_t{1000}})
+    for (const std::size_t pixels : {std::size_t{0}, std::size_t{1}, std::size_t{3}, std::size_t{7}, step - 1,
+                                     step, step + 1, 3 * step, 8 * step + 2, std::size_t{1000}})
         for (const std::size_t bands : {1U, 2U, 8U, 31U, 81U, 401U})
             for (const std::size_t offset : {0U, 1U, 3U})
                 for (const auto& types : kTypes) {
                     const Case test(random, pixels, bands, offset, types);
-                    SCOPED_TRACE(testing::Message() << pixels << " pixels, " << bands << " bands, offset "
-                                                    << offset);
+                    SCOPED_TRACE(testing::Message()
+                                 << pixels << " pixels, " << bands << " bands, offset " << offset);
                     expect_same_bits(test.run(collapse_run), test.run(collapse_run_reference));
                 }
 }
@@ -146,8 +149,9 @@ TEST_P(KernelOn, SpecialValuesAreTheSame) {
     for (const auto& types : {kTypes[0], kTypes[1]}) {
         Case test(random, 200, 5, 0, types);
         const float inf = std::numeric_limits<float>::infinity();
-        const std::vector<float> special{inf, -inf, std::numeric_limits<float>::quiet_NaN(), 0.0F, -0.0F, 1e-45F, 5.9e-8F, 65504.0F,
-                                         3e38F, -1e-40F};
+        const std::vector<float> special{
+            inf,   -inf,   std::numeric_limits<float>::quiet_NaN(), 0.0F, -0.0F, 1e-45F, 5.9e-8F, 65504.0F,
+            3e38F, -1e-40F};
         for (std::size_t band = 0; band < 5; ++band)
             for (std::size_t i = 0; i < special.size(); ++i)
                 Case::put(types[0], test.sample(band, 17 * i + band), special[i]);
@@ -224,9 +228,7 @@ std::vector<std::int64_t> targets_of_this_machine() {
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, KernelOn, testing::ValuesIn(targets_of_this_machine()),
-                         [](const auto& target) {
-                             return std::string(hwy::TargetName(target.param));
-                         });
+                         [](const auto& target) { return std::string(hwy::TargetName(target.param)); });
 
 TEST(KernelReference, ErrorStaysWithinTheForwardBound) {
     // float(sum in double): half a unit of float, and one unit of double for each product and sum.
@@ -238,9 +240,8 @@ TEST(KernelReference, ErrorStaysWithinTheForwardBound) {
             for (std::size_t pixel = 0; pixel < 500; ++pixel) {
                 long double exact = 0, absolute = 0;
                 for (std::size_t band = 0; band < bands; ++band) {
-                    const long double term =
-                        static_cast<long double>(test.weights.at(row, band)) *
-                        static_cast<long double>(sample_at(test.views[band], pixel));
+                    const long double term = static_cast<long double>(test.weights.at(row, band)) *
+                                             static_cast<long double>(sample_at(test.views[band], pixel));
                     exact += term;
                     absolute += std::abs(term);
                 }

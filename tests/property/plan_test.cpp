@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Laws of a plan, over random and chosen grids.
-#include <support/bound.h>
-#include <support/sets.h>
-
 #include <osio/base/text.h>
 #include <osio/colour/illuminant.h>
+
+#include <support/bound.h>
+#include <support/sets.h>
 
 #include <algorithm>
 #include <random>
@@ -35,9 +35,9 @@ TEST(Plan, PerfectDiffuserIsWhiteInEverySpaceUnderEveryLight) {
     for (const std::string& light : illuminant_names())
         for (const OutputSpace& space : output_spaces())
             for (const auto& grid : {steps(380, 5, 780), steps(400, 10, 700), steps(360, 1, 830)}) {
-                const auto plan = plan_of(set_of(Family::T, grid), "to=" + std::string(space.id) +
-                                                                       "&illuminant=" + light)
-                                      .value();
+                const auto plan =
+                    plan_of(set_of(Family::T, grid), "to=" + std::string(space.id) + "&illuminant=" + light)
+                        .value();
                 const auto out = outputs_of(plan, std::vector<double>(grid.size(), 1.0));
                 if (space.kind == SpaceKind::Rgb)
                     for (const double channel : out)
@@ -53,8 +53,8 @@ TEST(Plan, PerfectDiffuserIsWhiteInEverySpaceUnderEveryLight) {
 
 TEST(Plan, FlatRadianceOfOneHasUnitY) {
     for (const char* observer : {"cie1931", "cie1964"}) {
-        const auto plan = plan_of(set_of(Family::S0, steps(400, 10, 700)),
-                                  std::string("to=xyz&observer=") + observer);
+        const auto plan =
+            plan_of(set_of(Family::S0, steps(400, 10, 700)), std::string("to=xyz&observer=") + observer);
         EXPECT_NEAR(outputs_of(*plan, std::vector<double>(31, 1.0))[1], 1, 1e-13) << observer;
     }
 }
@@ -192,8 +192,8 @@ TEST(Plan, AStatedWhiteBecomesTheSpacesWhite) {
     const Vector3 white = white_point(find_illuminant("A").value(), find_observer("cie1931").value()).value();
     const Matrix3 to_acescg = inverse(xyz_from_acescg) * bradford_adaptation(white, kAcesWhite.xyz());
     for (std::size_t band = 0; band < plan.bands.size(); ++band) {
-        const Vector3 expected = to_acescg * Vector3{xyz.weights.at(0, band), xyz.weights.at(1, band),
-                                                     xyz.weights.at(2, band)};
+        const Vector3 expected =
+            to_acescg * Vector3{xyz.weights.at(0, band), xyz.weights.at(1, band), xyz.weights.at(2, band)};
         for (std::size_t row = 0; row < 3; ++row)
             EXPECT_NEAR(plan.weights.at(row, band), expected[row], 1e-15);
     }
@@ -273,9 +273,9 @@ TEST(PlanRefusal, NamesWhatWasFoundExpectedAndToDo) {
 
 TEST(PlanRefusal, LightsWithoutLuminance) {
     const auto with = [](const std::string& csv) {
-        const auto plan = make_plan(set_of(Family::T, steps(400, 10, 700)),
-                                    request_of("to=xyz&illuminant=lamp.csv"),
-                                    [csv](std::string_view) -> Result<std::string> { return csv; });
+        const auto plan =
+            make_plan(set_of(Family::T, steps(400, 10, 700)), request_of("to=xyz&illuminant=lamp.csv"),
+                      [csv](std::string_view) -> Result<std::string> { return csv; });
         return plan ? std::string("no refusal") : plan.error().text();
     };
     EXPECT_EQ(with("400,0\n700,0\n"),

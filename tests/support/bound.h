@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
-#include <gtest/gtest.h>
 #include <iostream>
 #include <string>
 
@@ -14,6 +15,7 @@ namespace osio::test {
 class Bound {
   public:
     Bound(std::string what, double allowed) : m_what(std::move(what)), m_allowed(allowed) {}
+
     Bound(const Bound&) = delete;
     Bound& operator=(const Bound&) = delete;
 

@@ -45,9 +45,9 @@ Imf::Header header_of(const TestPart& part, bool several) {
         header.channels().insert(channel.name,
                                  Imf::Channel(channel.type, channel.sampling, channel.sampling));
     if (part.tiles)
-        header.setTileDescription(
-            Imf::TileDescription(static_cast<unsigned>(part.tiles->x), static_cast<unsigned>(part.tiles->y),
-                                 part.mipmaps ? Imf::MIPMAP_LEVELS : Imf::ONE_LEVEL));
+        header.setTileDescription(Imf::TileDescription(static_cast<unsigned>(part.tiles->x),
+                                                       static_cast<unsigned>(part.tiles->y),
+                                                       part.mipmaps ? Imf::MIPMAP_LEVELS : Imf::ONE_LEVEL));
     header.setType(part.deep ? Imf::DEEPSCANLINE : part.tiles ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
     if (part.deep)
         header.setVersion(1);
@@ -75,8 +75,8 @@ class Frame {
                 for (int x = 0; x < width; ++x, at += bytes)
                     put(channel.type, pattern(c, w.min.x + x * s, w.min.y + y * s), at);
             buffer.insert(channel.name,
-                          Imf::Slice::Make(channel.type, m_planes.back().data(), w.min, width, height,
-                                           bytes, bytes * static_cast<std::size_t>(width), s, s));
+                          Imf::Slice::Make(channel.type, m_planes.back().data(), w.min, width, height, bytes,
+                                           bytes * static_cast<std::size_t>(width), s, s));
         }
     }
 

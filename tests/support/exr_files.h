@@ -38,7 +38,7 @@ struct TestPart {
     bool mipmaps = false;
     bool deep = false;
     std::string name;
-    TestPattern pattern;                            ///< default: smooth and different everywhere
+    TestPattern pattern;  ///< default: smooth and different everywhere
     std::function<void(Imf::Header&)> attributes;
 };
 
@@ -51,6 +51,7 @@ class TestFolder {
     TestFolder& operator=(const TestFolder&) = delete;
 
     [[nodiscard]] std::string path(const std::string& name) const { return (m_path / name).string(); }
+
     /// Names of the files in it.
     [[nodiscard]] std::vector<std::string> files() const;
 
@@ -65,8 +66,8 @@ class TestFolder {
 void write_exr(const std::string& path, const std::vector<TestPart>& parts);
 
 /// Bands of a family every `step` nm.
-[[nodiscard]] std::vector<TestChannel> band_channels(const std::string& family, int first, int step,
-                                                     int last, Imf::PixelType type = Imf::FLOAT);
+[[nodiscard]] std::vector<TestChannel> band_channels(const std::string& family, int first, int step, int last,
+                                                     Imf::PixelType type = Imf::FLOAT);
 
 /// One channel of one part, read whole by OpenEXR's C++ API, as bytes in rows.
 [[nodiscard]] std::vector<char> read_with_openexr(const std::string& path, int part,

@@ -5,6 +5,7 @@
 #include <osio/collapse/plan.h>
 
 #include <gtest/gtest.h>
+
 #include <string>
 #include <vector>
 
@@ -30,8 +31,7 @@ inline CollapseRequest request_of(const std::string& text) {
     CollapseRequest request;
     for (const auto option : split(text, '&')) {
         const auto equals = option.find('=');
-        const auto result =
-            set_option(request, option.substr(0, equals), option.substr(equals + 1));
+        const auto result = set_option(request, option.substr(0, equals), option.substr(equals + 1));
         if (!result)
             throw std::runtime_error(result.error().text());
     }

@@ -4,8 +4,9 @@
 #include <osio/layout/presentation.h>
 #include <osio/layout/spectral_metadata.h>
 
-#include <algorithm>
 #include <gtest/gtest.h>
+
+#include <algorithm>
 #include <random>
 #include <set>
 
@@ -95,10 +96,9 @@ TEST(Presentation, DuplicatesKeepNamesOfTheirOwn) {
 }
 
 TEST(Presentation, WrittenNamesAreTheLayoutsOwn) {
-    const Names given{"R", "T.450nm", "T.450.5nm", "T.460,000000nm", "T.400nm.500.5nm", "S0.0,55um",
-                      "depth"};
-    EXPECT_EQ(layout_names(given), (Names{"R", "T.450nm", "T.450,5nm", "T.460nm", "T.400nm.500,5nm",
-                                          "S0.550nm", "depth"}));
+    const Names given{"R", "T.450nm", "T.450.5nm", "T.460,000000nm", "T.400nm.500.5nm", "S0.0,55um", "depth"};
+    EXPECT_EQ(layout_names(given),
+              (Names{"R", "T.450nm", "T.450,5nm", "T.460nm", "T.400nm.500,5nm", "S0.550nm", "depth"}));
 }
 
 TEST(Presentation, WrittenDuplicatesStayApartAndMeanTheSame) {
@@ -115,8 +115,7 @@ TEST(Dialect, KnownProgramsAreNamed) {
     EXPECT_NE(dialect({"wavelength400", "wavelength430_25"}).find("Indigo"), std::string::npos);
     EXPECT_NE(dialect({"Radiance.C01", "Radiance.C02"}).find("ISET3D"), std::string::npos);
     EXPECT_NE(dialect({"Band1", "Band2"}, {"gdal:Band_1"}).find("GDAL"), std::string::npos);
-    EXPECT_NE(dialect({"wl0", "wl1"}, {"wl0.wavelength", "wl1.wavelength"}).find("Ocean"),
-              std::string::npos);
+    EXPECT_NE(dialect({"wl0", "wl1"}, {"wl0.wavelength", "wl1.wavelength"}).find("Ocean"), std::string::npos);
     EXPECT_NE(dialect({"0", "1", "2", "3", "4"}).find("OpenCV"), std::string::npos);
     EXPECT_NE(dialect({"b_550nm", "b_560nm"}).find("wavelength in them"), std::string::npos);
     EXPECT_EQ(dialect({"R", "G", "B"}), "none");
@@ -130,7 +129,8 @@ TEST(SpectralMetadata, MissingAndOddAttributesAreWarnings) {
     const auto none = read_spectral_metadata(layout, {});
     EXPECT_EQ(none.warnings.size(), 2U);  // version, units
     const auto odd = read_spectral_metadata(
-        layout, {{"spectralLayoutVersion", "2.0"}, {"emissiveUnits", "cd"}, {"polarisationHandedness", "up"}});
+        layout,
+        {{"spectralLayoutVersion", "2.0"}, {"emissiveUnits", "cd"}, {"polarisationHandedness", "up"}});
     EXPECT_EQ(odd.warnings.size(), 3U);
     const auto good = read_spectral_metadata(layout, {{"spectralLayoutVersion", "1.0"},
                                                       {"emissiveUnits", "W.m^-2.sr^-1.nm^-1"},
@@ -141,8 +141,8 @@ TEST(SpectralMetadata, MissingAndOddAttributesAreWarnings) {
 
 TEST(SpectralMetadata, SensitivitiesBelongToTheirChannel) {
     const auto layout = layout_of({"S0.400,0nm", "S0.500nm"});
-    const auto metadata = read_spectral_metadata(layout, {{"S0.400,0nm", "390nm:0;400nm:1;410nm:0;"},
-                                                          {"cameraResponse", "400nm:1;x;"}});
+    const auto metadata = read_spectral_metadata(
+        layout, {{"S0.400,0nm", "390nm:0;400nm:1;410nm:0;"}, {"cameraResponse", "400nm:1;x;"}});
     ASSERT_EQ(metadata.sensitivities.size(), 1U);
     EXPECT_EQ(metadata.sensitivities.at(0).values, (std::vector<double>{0, 1, 0}));
     EXPECT_EQ(metadata.camera_response->values, (std::vector<double>{1}));

@@ -2,6 +2,7 @@
 #include <osio/layout/channel_name.h>
 
 #include <gtest/gtest.h>
+
 #include <random>
 
 namespace osio {
@@ -33,9 +34,10 @@ TEST(ChannelName, RootsEndInADot) {
 }
 
 TEST(ChannelName, WhatIsNoBandIsLeftAlone) {
-    for (const char* name : {"", "R", "S0", "S0.", "S0.R", "S3.B", "T.R", "S4.550nm", "S0.550NM",
-                             "s0.550nm", "S0.550.5nm", "S0.nm", "S0550nm", "T.400", "S0.550nm ",
-                             "T.400nm.", "T..400nm", "T.0nm", "Z", "395.00-405.00nm"})
+    for (const char* name :
+         {"",          "R",        "S0",       "S0.",        "S0.R",  "S3.B",           "T.R",
+          "S4.550nm",  "S0.550NM", "s0.550nm", "S0.550.5nm", "S0.nm", "S0550nm",        "T.400",
+          "S0.550nm ", "T.400nm.", "T..400nm", "T.0nm",      "Z",     "395.00-405.00nm"})
         EXPECT_FALSE(comma(name)) << name;
 }
 
@@ -51,8 +53,10 @@ TEST(ChannelName, OurCommaFreeNamesReadBack) {
     std::uniform_real_distribution<double> nm(100, 3000);
     std::uniform_int_distribution<int> family(0, 4), choice(0, 1);
     for (int i = 0; i < 3000; ++i) {
-        ChannelName name{choice(random) ? "left.eye" : "", static_cast<Family>(family(random)),
-                         choice(random) ? std::floor(nm(random)) : nm(random), {}};
+        ChannelName name{choice(random) ? "left.eye" : "",
+                         static_cast<Family>(family(random)),
+                         choice(random) ? std::floor(nm(random)) : nm(random),
+                         {}};
         if (name.family == Family::T && choice(random))
             name.emitted_nm = nm(random);
         for (const auto mark : {DecimalMark::Comma, DecimalMark::Point}) {

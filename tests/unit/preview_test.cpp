@@ -3,6 +3,7 @@
 #include <osio/colour/rgb_space.h>
 
 #include <gtest/gtest.h>
+
 #include <limits>
 #include <random>
 #include <vector>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <support/sets.h>
-
 #include <osio/base/text.h>
 #include <osio/collapse/selection.h>
+
+#include <support/sets.h>
 
 namespace osio::test {
 namespace {
@@ -56,8 +56,8 @@ class Parts {
     Parts& add(const std::string& name, const std::vector<std::string>& channels) {
         m_layouts.push_back(
             std::make_unique<ChannelLayout>(parse_channel_layout(channels, DecimalMark::Comma)));
-        m_parts.push_back({name, m_layouts.back().get(), {}, false,
-                           std::vector<bool>(channels.size(), false)});
+        m_parts.push_back(
+            {name, m_layouts.back().get(), {}, false, std::vector<bool>(channels.size(), false)});
         return *this;
     }
 
@@ -96,8 +96,7 @@ TEST(Selection, StokesComponentsStandBackForTheIntensity) {
 TEST(Selection, WhatFitsSeveralIsRefusedWithTheChoices) {
     Parts both;
     both.add("", {"S0.400nm", "T.400nm"});
-    EXPECT_EQ(both.choose("to=xyz"),
-              "several sets of bands fit: S0, T; name one with set=... or part=...");
+    EXPECT_EQ(both.choose("to=xyz"), "several sets of bands fit: S0, T; name one with set=... or part=...");
     EXPECT_EQ(both.code("to=xyz"), ErrorCode::Ambiguous);
     EXPECT_EQ(both.choose("to=xyz&set=T"), "0:T");
     Parts eyes;
@@ -123,8 +122,7 @@ TEST(Selection, AFileWithoutBandsIsNotSpectralAndNamesItsDialect) {
     Parts plain;
     plain.add("", {"R", "G", "B"});
     EXPECT_EQ(plain.code("to=xyz"), ErrorCode::NotSpectral);
-    EXPECT_NE(plain.choose("to=xyz").find("no spectral band among 3 channels (R, G, B)"),
-              std::string::npos);
+    EXPECT_NE(plain.choose("to=xyz").find("no spectral band among 3 channels (R, G, B)"), std::string::npos);
     Parts mitsuba;
     mitsuba.add("", {"395.00-405.00nm", "405.00-415.00nm"});
     EXPECT_EQ(mitsuba.code("to=xyz"), ErrorCode::NotSpectral);

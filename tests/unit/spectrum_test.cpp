@@ -18,9 +18,9 @@ TEST(Spectrum, StraightLinesInsideZeroOutside) {
 
 TEST(SpectrumText, ReadsBothWritersOfTheLayout) {
     const std::vector<double> nm{400, 500, 600}, values{0.1, 0.2, 0.3};
-    for (const char* text : {"400nm:0.1;500nm:0.2;600nm:0.3;",      // reference library
-                             "400nm:0.1;500nm:0.2;600nm:0.3",       // colour-science
-                             " 500 nm : 0.2 ;400nm:0.1; 0.6um:.3;", // by hand, in any order
+    for (const char* text : {"400nm:0.1;500nm:0.2;600nm:0.3;",       // reference library
+                             "400nm:0.1;500nm:0.2;600nm:0.3",        // colour-science
+                             " 500 nm : 0.2 ;400nm:0.1; 0.6um:.3;",  // by hand, in any order
                              "400,0nm:0,1;500,0nm:0,2;600nm:+0.3;"}) {
         const SpectrumText parsed = parse_spectrum_text(text);
         EXPECT_EQ(parsed.spectrum.wavelengths_nm, nm) << text;
@@ -30,8 +30,7 @@ TEST(SpectrumText, ReadsBothWritersOfTheLayout) {
 }
 
 TEST(SpectrumText, KeepsNegativeValuesAndReportsWhatIsNoSample) {
-    const SpectrumText parsed =
-        parse_spectrum_text("400nm:-0.1;nm:0.5;500:1;600nm:nan;700nm:inf;800nm;");
+    const SpectrumText parsed = parse_spectrum_text("400nm:-0.1;nm:0.5;500:1;600nm:nan;700nm:inf;800nm;");
     EXPECT_EQ(parsed.spectrum.wavelengths_nm, std::vector<double>{400});
     EXPECT_EQ(parsed.spectrum.values, std::vector<double>{-0.1});
     EXPECT_EQ(parsed.rejected.size(), 5U);
@@ -58,17 +57,14 @@ TEST(SpectrumCsv, SaysWhatIsWrongAndWhere) {
               "line 2: found \"500,x\", expected two numbers: wavelength in nm, value");
     EXPECT_EQ(error("nm,value\nmore,text\n"),
               "line 2: found \"more,text\", expected two numbers: wavelength in nm, value");
-    EXPECT_EQ(error("400,1\n500\n"),
-              "line 2: found \"500\", expected two numbers: wavelength in nm, value");
+    EXPECT_EQ(error("400,1\n500\n"), "line 2: found \"500\", expected two numbers: wavelength in nm, value");
     EXPECT_EQ(error("500,1\n400,2\n"),
               "line 2: 400 nm follows 500 nm; wavelengths must increase from line to line");
     EXPECT_EQ(error("400,1\n400,2\n"),
               "line 2: 400 nm follows 400 nm; wavelengths must increase from line to line");
     EXPECT_EQ(error("-400,1\n"), "line 1: a wavelength of -400 nm is not positive");
-    EXPECT_EQ(error("400,1,2\n"),
-              "line 1: found \"400,1,2\", expected two numbers: wavelength in nm, value");
-    EXPECT_EQ(error("400,nan\n"),
-              "line 1: found \"400,nan\", expected two numbers: wavelength in nm, value");
+    EXPECT_EQ(error("400,1,2\n"), "line 1: found \"400,1,2\", expected two numbers: wavelength in nm, value");
+    EXPECT_EQ(error("400,nan\n"), "line 1: found \"400,nan\", expected two numbers: wavelength in nm, value");
     EXPECT_EQ(error("0.4,1\n0.7,2\n"),
               "the wavelengths end at 0.7: these look like micrometres; nanometres are expected");
     EXPECT_EQ(error(""), "no line with a wavelength in nm and a value");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <support/sets.h>
-
 #include <osio/collapse/collapse_stream.h>
+
+#include <support/sets.h>
 
 #include <atomic>
 #include <cmath>
@@ -48,14 +48,20 @@ class MemorySource final : public BlockSource {
     }
 
     int width() const override { return m_width; }
+
     std::size_t block_count() const override {
         return static_cast<std::size_t>((m_height + m_rows - 1) / m_rows);
     }
-    std::size_t block_of_row(int row) const override { return static_cast<std::size_t>((row - kTop) / m_rows); }
+
+    std::size_t block_of_row(int row) const override {
+        return static_cast<std::size_t>((row - kTop) / m_rows);
+    }
+
     RowRange rows_of_block(std::size_t block) const override {
         const int first = kTop + static_cast<int>(block) * m_rows;
         return {first, std::min(first + m_rows, kTop + m_height) - 1};
     }
+
     Result<std::unique_ptr<BlockReader>> start_reader() const override;
 
     float at(std::size_t plane, int x, int row) const {
@@ -136,8 +142,7 @@ TEST(CollapseStream, ResultDoesNotDependOnWorkersBlocksOrRange) {
                 const MemorySource source(13, 40, rows_per_block, kGrid.size() + 1);
                 MemorySink sink(13, top);
                 TestRunner runner(workers, parallel);
-                const auto counts =
-                    collapse_stream(source, plan, true, {top, top + 39}, sink, runner, {});
+                const auto counts = collapse_stream(source, plan, true, {top, top + 39}, sink, runner, {});
                 ASSERT_TRUE(counts) << counts.error().text();
                 EXPECT_EQ(counts->pixels, 13U * 40U);
                 EXPECT_EQ(source.reads, static_cast<int>(source.block_count()));
@@ -148,8 +153,8 @@ TEST(CollapseStream, ResultDoesNotDependOnWorkersBlocksOrRange) {
                 MemorySink part(13, top + 7);
                 ASSERT_TRUE(collapse_stream(source, plan, true, {top + 7, top + 20}, part, runner, {}));
                 for (std::size_t p = 0; p < 4; ++p)
-                    EXPECT_TRUE(std::equal(part.rows[p].begin(), part.rows[p].end(),
-                                           expected[p].begin() + 7 * 13));
+                    EXPECT_TRUE(
+                        std::equal(part.rows[p].begin(), part.rows[p].end(), expected[p].begin() + 7 * 13));
             }
 }
 

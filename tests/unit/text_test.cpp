@@ -2,6 +2,7 @@
 #include <osio/base/text.h>
 
 #include <gtest/gtest.h>
+
 #include <limits>
 #include <random>
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <osio/spectra/wavelength.h>
 
-#include <clocale>
 #include <gtest/gtest.h>
+
+#include <clocale>
 #include <random>
 #include <string>
 
@@ -45,8 +46,8 @@ TEST(Wavelength, CommaIsTheDecimalMarkOfNamesAndPointOfOurOwn) {
 }
 
 TEST(Wavelength, WhatIsNoQuantityIsRefused) {
-    for (const char* bad : {"", "nm", "550", "550NM", "550 nm", "-550nm", "+550nm", "550nmx", "e5nm",
-                            ",nm", "0nm", "0,0nm", "1e999nm", "550hz", "550Knm", "55..0nm", "5,5,5nm"})
+    for (const char* bad : {"", "nm", "550", "550NM", "550 nm", "-550nm", "+550nm", "550nmx", "e5nm", ",nm",
+                            "0nm", "0,0nm", "1e999nm", "550hz", "550Knm", "55..0nm", "5,5,5nm"})
         EXPECT_FALSE(nm(bad)) << bad;
 }
 

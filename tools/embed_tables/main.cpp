@@ -71,8 +71,7 @@ std::string quoted(const std::string& text) {
     return out + "\"";
 }
 
-void write_table(std::ostream& out, const std::string& id, const std::string& path,
-                 const Sources& sources) {
+void write_table(std::ostream& out, const std::string& id, const std::string& path, const Sources& sources) {
     const auto lines = lines_of(path);
     const auto header = fields(lines.at(0), ',');
     out << "constexpr std::string_view " << id << "_columns[] = {";
@@ -81,8 +80,7 @@ void write_table(std::ostream& out, const std::string& id, const std::string& pa
     out << "};\nconstexpr std::string_view " << id << "_sources[] = {\n";
     for (std::size_t c = 1; c < header.size(); ++c) {
         const auto own = sources.of_column.find(header[c]);
-        out << "    "
-            << quoted(own != sources.of_column.end() ? own->second : sources.of_column.at("*"))
+        out << "    " << quoted(own != sources.of_column.end() ? own->second : sources.of_column.at("*"))
             << ",\n";
     }
     out << "};\n";
@@ -107,12 +105,14 @@ void embed(const std::string& folder, const std::string& target) {
     std::ostringstream list;
     for (const auto& [file, sources] : read_sources(folder)) {
         std::string id = file.substr(0, file.rfind('.'));
-        std::replace_if(id.begin(), id.end(), [](char c) { return !std::isalnum(c); }, '_');
+        std::replace_if(
+            id.begin(), id.end(), [](char c) { return !std::isalnum(c); }, '_');
         write_table(out, id, folder + "/" + file, sources);
-        list << "    Table{" << quoted(file) << ", " << quoted(sources.sha256) << ", " << id
-             << "_columns, " << id << "_sources, " << id << "_wavelengths, " << id << "_cells},\n";
+        list << "    Table{" << quoted(file) << ", " << quoted(sources.sha256) << ", " << id << "_columns, "
+             << id << "_sources, " << id << "_wavelengths, " << id << "_cells},\n";
     }
-    out << "constexpr Table kTables[] = {\n" << list.str() << "};\n\n}  // namespace\n\n"
+    out << "constexpr Table kTables[] = {\n"
+        << list.str() << "};\n\n}  // namespace\n\n"
         << "std::span<const Table> embedded_tables() {\n    return kTables;\n}\n\n}  // namespace osio\n";
     std::ofstream file(target);
     file << out.str();

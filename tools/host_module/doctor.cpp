@@ -7,6 +7,7 @@
 #include <osio/base/text.h>
 
 #include <OpenImageIO/imageio.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <dlfcn.h>
@@ -33,8 +34,8 @@ std::string environment(const char* name) {
 /// Where OpenImageIO 2.4 looks, in its order.
 std::vector<std::string> search_path() {
     std::vector<std::string> folders;
-    for (const std::string& list : {environment("OIIO_LIBRARY_PATH"),
-                                    host_attribute("plugin_searchpath"), environment("LD_LIBRARY_PATH")})
+    for (const std::string& list : {environment("OIIO_LIBRARY_PATH"), host_attribute("plugin_searchpath"),
+                                    environment("LD_LIBRARY_PATH")})
         for (const auto folder : split(list, ':'))
             if (!folder.empty())
                 folders.emplace_back(folder);
@@ -80,8 +81,7 @@ class Examination {
         OIIO::geterror();
         const std::string used = follow_the_search();
         if (input && in_list(host_attribute("format_list"), kFormat))
-            add(Kind::Good,
-                "OpenImageIO sees the plugin " + used + " (" + library_version(used) + ")");
+            add(Kind::Good, "OpenImageIO sees the plugin " + used + " (" + library_version(used) + ")");
         else
             explain();
         if (OIIO::get_int_attribute("try_all_readers", 1) == 0)

@@ -8,6 +8,7 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
+
 #include <algorithm>
 #include <cmath>
 #include <exception>
@@ -52,10 +53,15 @@ class CheckedProxy final : public OIIO::Filesystem::IOProxy {
     explicit CheckedProxy(const std::string& path) : IOProxy(path, Write), m_file(path) {}
 
     [[nodiscard]] const char* proxytype() const override { return "checked file"; }
+
     void close() override { m_file.close(); }
+
     [[nodiscard]] std::int64_t tell() override { return static_cast<std::int64_t>(m_file.position()); }
+
     bool seek(std::int64_t offset) override { return m_file.seek(static_cast<std::uint64_t>(offset)); }
+
     [[nodiscard]] std::size_t size() const override { return m_file.size(); }
+
     std::size_t write(const void* bytes, std::size_t count) override {
         return m_file.write(bytes, count) ? count : 0;
     }
@@ -87,8 +93,8 @@ class OiioSink final : public HostSink {
             }
             m_clipped += clipped;
         }
-        const bool ok = m_output->write_scanlines(first_row, first_row + row_count, 0,
-                                                  OIIO::TypeDesc::FLOAT, m_pixels.data());
+        const bool ok = m_output->write_scanlines(first_row, first_row + row_count, 0, OIIO::TypeDesc::FLOAT,
+                                                  m_pixels.data());
         return ok ? Result<void>() : failure();
     }
 
@@ -96,8 +102,7 @@ class OiioSink final : public HostSink {
         if (!m_output->close())
             return failure();
         if (m_proxy && m_proxy->file().close() != 0)
-            return fail(ErrorCode::Io, "cannot be written: " + m_proxy->file().failure(),
-                        m_file.target());
+            return fail(ErrorCode::Io, "cannot be written: " + m_proxy->file().failure(), m_file.target());
         return m_file.commit();
     }
 
@@ -139,12 +144,11 @@ Result<std::unique_ptr<HostSink>> open_checked(const HostImage& image) {
         return fail(ErrorCode::Io, "cannot be written: " + output->geterror(), image.path);
     if (output->spec().format != spec.format)
         return fail(ErrorCode::Usage,
-                    std::string(output->format_name()) + " stores " +
-                        output->spec().format.c_str() + ", not " + spec.format.c_str() +
+                    std::string(output->format_name()) + " stores " + output->spec().format.c_str() +
+                        ", not " + spec.format.c_str() +
                         "; name a type it can store with -d, or write an .exr",
                     image.path);
-    return std::make_unique<OiioSink>(std::move(file), std::move(proxy), std::move(output),
-                                      image.type);
+    return std::make_unique<OiioSink>(std::move(file), std::move(proxy), std::move(output), image.type);
 }
 
 }  // namespace

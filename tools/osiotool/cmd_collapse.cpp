@@ -12,9 +12,10 @@
 
 #include <osio/base/text.h>
 
+#include <fmt/format.h>
+
 #include <array>
 #include <chrono>
-#include <fmt/format.h>
 
 namespace osio::tool {
 
@@ -22,11 +23,10 @@ namespace {
 
 using host::StoredType;
 
-constexpr std::array<std::pair<std::string_view, StoredType>, 4> kDepths{
-    {{"half", StoredType::Half},
-     {"float", StoredType::Float},
-     {"uint8", StoredType::Uint8},
-     {"uint16", StoredType::Uint16}}};
+constexpr std::array<std::pair<std::string_view, StoredType>, 4> kDepths{{{"half", StoredType::Half},
+                                                                          {"float", StoredType::Float},
+                                                                          {"uint8", StoredType::Uint8},
+                                                                          {"uint16", StoredType::Uint16}}};
 
 std::string_view depth_name(StoredType type) {
     for (const auto& [name, known] : kDepths)
@@ -60,12 +60,11 @@ Result<StoredType> choose_depth(const CollapseOptions& options, const OutputSpac
             }
         }
         if (!found)
-            return fail(ErrorCode::UnknownName, "there is no depth \"" + options.depth + "\"" +
-                                                    suggestion(options.depth, names));
+            return fail(ErrorCode::UnknownName,
+                        "there is no depth \"" + options.depth + "\"" + suggestion(options.depth, names));
     }
     if (is_integer(type) && is_exr(options.output))
-        return fail(ErrorCode::Usage, "an .exr stores half or float, not " +
-                                          std::string(depth_name(type)));
+        return fail(ErrorCode::Usage, "an .exr stores half or float, not " + std::string(depth_name(type)));
     if (is_integer(type) && space.transfer == Transfer::Linear && !options.raw)
         return fail(ErrorCode::Usage,
                     std::string(space.id) + " is linear, and " + std::string(depth_name(type)) +
@@ -80,8 +79,8 @@ struct Output {
     std::function<Result<void>(CollapseOutcome&)> finish;
 };
 
-Result<Output> open_exr(const CollapseOptions& options, const exr::CollapseJob& job,
-                        Imf::Header header, StoredType type) {
+Result<Output> open_exr(const CollapseOptions& options, const exr::CollapseJob& job, Imf::Header header,
+                        StoredType type) {
     if (!options.compression.empty()) {
         OSIO_TRY(header.compression(), exr::find_compression(options.compression));
     }
@@ -90,8 +89,7 @@ Result<Output> open_exr(const CollapseOptions& options, const exr::CollapseJob& 
     for (const std::string& name : job.channel_names())
         channels.push_back({name, sample});
     OSIO_TRY(auto writer, exr::ExrWriter::create(options.output, std::move(header), channels));
-    auto sink = std::make_unique<exr::ExrSink>(std::move(writer), sample,
-                                               job.part().data_window.width());
+    auto sink = std::make_unique<exr::ExrSink>(std::move(writer), sample, job.part().data_window.width());
     auto* const exr = sink.get();
     return Output{std::move(sink), [exr](CollapseOutcome& outcome) {
                       outcome.clamped_samples = exr->clamped_count();
@@ -117,8 +115,7 @@ Result<Output> open_other(const CollapseOptions& options, const exr::CollapseJob
 Result<ExitCode> run_collapse(const CollapseOptions& options) {
     const auto started = std::chrono::steady_clock::now();
     OSIO_TRY(const CollapseRequest request, request_of(options.request));
-    OSIO_TRY(const exr::CollapseJob job,
-             exr::open_collapse(options.input, request, files::text_loader({})));
+    OSIO_TRY(const exr::CollapseJob job, exr::open_collapse(options.input, request, files::text_loader({})));
     OSIO_TRY(const StoredType type, choose_depth(options, job.plan.space));
     OSIO_TRY(const auto source, job.open_source());
 
@@ -136,12 +133,11 @@ Result<ExitCode> run_collapse(const CollapseOptions& options) {
     {
         ProgressBar bar(options.output, !options.quiet);
         OSIO_TRY(outcome.counts,
-                 collapse_stream(*source, job.plan, job.alpha.has_value(),
-                                 {window.min_y, window.max_y}, *output.sink, runner, std::ref(bar)));
+                 collapse_stream(*source, job.plan, job.alpha.has_value(), {window.min_y, window.max_y},
+                                 *output.sink, runner, std::ref(bar)));
     }
     OSIO_CHECK_OK(output.finish(outcome));
-    outcome.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
+    outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
 
     if (!options.quiet) {
         for (const std::string& warning : job.warnings)

@@ -2,8 +2,9 @@
 #include <tools/osiotool/commands.h>
 #include <tools/osiotool/host_loader.h>
 
-#include <cstdlib>
 #include <fmt/format.h>
+
+#include <cstdlib>
 
 namespace osio::tool {
 
@@ -20,10 +21,10 @@ Result<ExitCode> run_doctor() {
         healthy = healthy && finding.kind != Kind::Problem;
     }
     const char* const config = std::getenv("OCIO");
-    fmt::print("note:    OCIO {}\n",
-               config == nullptr ? std::string("is not set; colour conversions of oiiotool need "
-                                               "--colorconfig")
-                                 : fmt::format("is {}", config));
+    fmt::print("note:    OCIO {}\n", config == nullptr
+                                         ? std::string("is not set; colour conversions of oiiotool need "
+                                                       "--colorconfig")
+                                         : fmt::format("is {}", config));
     return healthy ? kDone : kDoesNotFit;
 }
 

@@ -8,9 +8,10 @@
 #include <osio/colour/observer.h>
 #include <osio/colour/rgb_space.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
-#include <fmt/format.h>
 
 namespace osio::tool {
 
@@ -36,16 +37,16 @@ TextTable spaces() {
         std::string aliases(space.aliases);
         for (auto at = aliases.find('|'); at != std::string::npos; at = aliases.find('|', at))
             aliases.replace(at, 1, ", ");
-        table.add({std::string(space.id),
-                   space.color_space.empty() ? "none" : std::string(space.color_space), aliases});
+        table.add({std::string(space.id), space.color_space.empty() ? "none" : std::string(space.color_space),
+                   aliases});
     }
     return table;
 }
 
 TextTable bases() {
     TextTable table({{"basis"}, {"meaning"}});
-    table.add({std::string(basis_name(Basis::Linear)),
-               "straight lines between band samples, summed at 1 nm"});
+    table.add(
+        {std::string(basis_name(Basis::Linear)), "straight lines between band samples, summed at 1 nm"});
     return table;
 }
 
@@ -54,10 +55,8 @@ struct List {
     TextTable (*make)();
 };
 
-constexpr std::array<List, 4> kLists{{{"illuminants", illuminants},
-                                      {"observers", observers},
-                                      {"spaces", spaces},
-                                      {"bases", bases}}};
+constexpr std::array<List, 4> kLists{
+    {{"illuminants", illuminants}, {"observers", observers}, {"spaces", spaces}, {"bases", bases}}};
 
 }  // namespace
 

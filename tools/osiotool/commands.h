@@ -34,7 +34,7 @@ struct CollapseOptions {
     std::string depth;        ///< half, float, uint8, uint16; empty: what suits the output
     std::string compression;  ///< of EXR output; empty: zip
     unsigned threads = 0;
-    bool raw = false;         ///< linear values into integers are wanted
+    bool raw = false;  ///< linear values into integers are wanted
     bool quiet = false;
     bool json = false;
 };

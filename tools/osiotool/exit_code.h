@@ -8,10 +8,10 @@ namespace osio::tool {
 /// What the process tells its caller; documented in docs/cli.md.
 enum ExitCode : int {
     kDone = 0,
-    kDoesNotFit = 1,   ///< the request does not fit the file
-    kUsage = 2,        ///< a word or a combination of words that means nothing
-    kBadInput = 4,     ///< damaged, or not spectral
-    kSystem = 5,       ///< the operating system refused to read or write
+    kDoesNotFit = 1,  ///< the request does not fit the file
+    kUsage = 2,       ///< a word or a combination of words that means nothing
+    kBadInput = 4,    ///< damaged, or not spectral
+    kSystem = 5,      ///< the operating system refused to read or write
     kInterrupted = 130,
 };
 

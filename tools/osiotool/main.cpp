@@ -10,8 +10,9 @@
 #include <osio/collapse/request.h>
 
 #include <CLI/CLI.hpp>
-#include <exception>
 #include <fmt/format.h>
+
+#include <exception>
 #include <functional>
 
 namespace osio::tool {
@@ -37,8 +38,8 @@ using Run = std::function<Result<ExitCode>()>;
 class CommandLine {
   public:
     CommandLine() : m_app("Multispectral EXR: information, and collapse to colour.", "osiotool") {
-        m_app.set_version_flag("--version", fmt::format("osiotool {} (OpenEXR {})", OSIO_VERSION,
-                                                        exr::library_version()));
+        m_app.set_version_flag("--version",
+                               fmt::format("osiotool {} (OpenEXR {})", OSIO_VERSION, exr::library_version()));
         m_app.require_subcommand(1);
         m_app.footer("Exit codes: 0 done, 1 the request does not fit the file, 2 usage or unknown "
                      "name, 4 input damaged or not spectral, 5 the system refused, 130 interrupted.");
@@ -88,8 +89,8 @@ class CommandLine {
     }
 
     void add_collapse() {
-        CLI::App* const command = add("collapse", "bands to a colour image",
-                                      [this] { return run_collapse(m_collapse); });
+        CLI::App* const command =
+            add("collapse", "bands to a colour image", [this] { return run_collapse(m_collapse); });
         command->add_option("input", m_collapse.input, "spectral OpenEXR file")->required();
         command->add_option("output", m_collapse.output, "image; .exr, .png, .tif, ...")->required();
         add_request_options(*command, m_collapse.request);
@@ -116,8 +117,7 @@ class CommandLine {
     }
 
     void add_list() {
-        CLI::App* const command = add("list", "names that options take",
-                                      [this] { return run_list(m_list); });
+        CLI::App* const command = add("list", "names that options take", [this] { return run_list(m_list); });
         command->add_option("what", m_list.what, "illuminants, observers, spaces or bases")->required();
     }
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tools/osiotool/progress_bar.h>
 
+#include <fmt/format.h>
+
 #include <csignal>
 #include <cstdio>
-#include <fmt/format.h>
 #include <unistd.h>
 
 namespace osio::tool {
@@ -25,6 +26,7 @@ constexpr int kWidth = 30;
 
 void catch_interrupts() {
     struct sigaction action {};
+
     action.sa_handler = note_interrupt;
     ::sigemptyset(&action.sa_mask);
     ::sigaction(SIGINT, &action, nullptr);
@@ -47,8 +49,8 @@ ProgressBar::~ProgressBar() {
 bool ProgressBar::operator()(double share) {
     if (m_shown && Clock::now() >= m_next) {
         const int filled = static_cast<int>(share * kWidth);
-        fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:3.0f} %", m_label, "", filled, "",
-                   kWidth - filled, 100 * share);
+        fmt::print(stderr, "\r{} [{:#<{}}{:.<{}}] {:3.0f} %", m_label, "", filled, "", kWidth - filled,
+                   100 * share);
         std::fflush(stderr);
         m_drawn = true;
         m_next = Clock::now() + kRefresh;

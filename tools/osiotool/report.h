@@ -18,7 +18,7 @@ namespace osio::tool {
 /// What became of a collapse.
 struct CollapseOutcome {
     std::string output;
-    std::string type;                 ///< half, float, uint8, uint16
+    std::string type;  ///< half, float, uint8, uint16
     CollapseCounts counts;
     std::uint64_t clamped_samples = 0;  ///< beyond +-65504 in a half
     std::uint64_t clipped_pixels = 0;   ///< outside 0 to 1 in an integer

@@ -33,8 +33,8 @@ Json set_json(const exr::ExrPart& part, const SpectralSet& set) {
              {"channels", std::move(channels)},
              {"types", std::move(types)},
              {"reradiation", set.reradiation.size()}};
-    out["units"] = set.quantity() == Quantity::Radiance ? optional_text(part.metadata.emissive_units)
-                                                        : Json(nullptr);
+    out["units"] =
+        set.quantity() == Quantity::Radiance ? optional_text(part.metadata.emissive_units) : Json(nullptr);
     return out;
 }
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tools/osiotool/report.h>
-
 #include <tools/osiotool/text_table.h>
 
 #include <osio/base/text.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 #include <map>
 
 namespace osio::tool {
@@ -43,8 +43,7 @@ std::string set_text(const exr::ExrPart& part, const SpectralSet& set) {
         out += " in " + part.metadata.emissive_units.value_or("W.m^-2.sr^-1") + " per nm";
     out += fmt::format(", {} band{}", set.bands.size(), set.bands.size() == 1 ? "" : "s");
     if (!set.bands.empty())
-        out += ", " + spacing_text(set.wavelengths_nm()) + ", " +
-               types_text(part, set.bands, of_band);
+        out += ", " + spacing_text(set.wavelengths_nm()) + ", " + types_text(part, set.bands, of_band);
     if (!set.reradiation.empty())
         out += fmt::format(", {} reradiation channels T.in.out", set.reradiation.size());
     return out + "\n";
@@ -52,9 +51,8 @@ std::string set_text(const exr::ExrPart& part, const SpectralSet& set) {
 
 std::string part_text(const exr::ExrPart& part, std::size_t index) {
     std::string out = fmt::format("part {}{}: {}x{} pixels, {} channels, {}{}, {} compression\n", index,
-                                  part.name.empty() ? "" : " \"" + part.name + "\"",
-                                  part.data_window.width(), part.data_window.height(),
-                                  part.channels.size(), part.deep ? "deep " : "",
+                                  part.name.empty() ? "" : " \"" + part.name + "\"", part.data_window.width(),
+                                  part.data_window.height(), part.channels.size(), part.deep ? "deep " : "",
                                   part.tiled ? "tiles" : "scanlines", part.compression());
     out += "  data window " + window_text(part.data_window);
     out += part.display_window == part.data_window
@@ -63,8 +61,7 @@ std::string part_text(const exr::ExrPart& part, std::size_t index) {
     if (part.layout.sets.empty())
         out += "  no spectral bands\n";
     else
-        out += "  spectral layout version " +
-               part.metadata.layout_version.value_or("not stated") + "\n";
+        out += "  spectral layout version " + part.metadata.layout_version.value_or("not stated") + "\n";
     for (const SpectralSet& set : part.layout.sets)
         out += set_text(part, set);
     if (!part.metadata.sensitivities.empty())
@@ -82,8 +79,8 @@ std::string part_text(const exr::ExrPart& part, std::size_t index) {
         const std::size_t count = names.size();
         names.resize(std::min(count, kNamedChannels));
         out += "  other channels: " + join(names, ", ") +
-               (count > kNamedChannels ? fmt::format(" and {} more", count - kNamedChannels) : "") +
-               " (" + types_text(part, part.layout.others, [](std::size_t c) { return c; }) + ")\n";
+               (count > kNamedChannels ? fmt::format(" and {} more", count - kNamedChannels) : "") + " (" +
+               types_text(part, part.layout.others, [](std::size_t c) { return c; }) + ")\n";
     }
     for (const auto* warnings : {&part.layout.warnings, &part.metadata.warnings})
         for (const std::string& warning : *warnings)
@@ -107,14 +104,14 @@ std::string spacing_text(const std::vector<double>& nm) {
     }
     const std::string range = format_double(nm.front()) + "-" + format_double(nm.back()) + " nm";
     if (most - least < kSameSpacingNm)
-        return range + " every " + fmt::format("{:.6g} nm", (nm.back() - nm.front()) /
-                                                                static_cast<double>(nm.size() - 1));
+        return range + " every " +
+               fmt::format("{:.6g} nm", (nm.back() - nm.front()) / static_cast<double>(nm.size() - 1));
     return range + fmt::format(" spaced {:.6g} to {:.6g} nm", least, most);
 }
 
 std::string info_text(const exr::ExrFile& file) {
-    std::string out = fmt::format("{}: {} part{}\n", file.path(), file.parts().size(),
-                                  file.parts().size() == 1 ? "" : "s");
+    std::string out =
+        fmt::format("{}: {} part{}\n", file.path(), file.parts().size(), file.parts().size() == 1 ? "" : "s");
     for (std::size_t part = 0; part < file.parts().size(); ++part)
         out += part_text(file.parts()[part], part);
     return out;
@@ -166,9 +163,8 @@ std::string outcome_text(const exr::CollapseJob& job, const CollapseOutcome& out
     std::string out = fmt::format(
         "{}: {}x{} {} {}, from {} bands of set {}{} ({}), plan {}, {:.2f} s\n", outcome.output,
         job.part().data_window.width(), job.part().data_window.height(), plan.space.id, outcome.type,
-        plan.bands.size(), plan.request.set,
-        plan.illuminant ? " under " + plan.illuminant->id : "", plan.observer.id, plan.id,
-        outcome.seconds);
+        plan.bands.size(), plan.request.set, plan.illuminant ? " under " + plan.illuminant->id : "",
+        plan.observer.id, plan.id, outcome.seconds);
     const auto line = [&out, &outcome](std::uint64_t count, std::string_view what) {
         if (count > 0)
             out += fmt::format("note: {} of {} pixels {}\n", count, outcome.counts.pixels, what);
@@ -178,8 +174,8 @@ std::string outcome_text(const exr::CollapseJob& job, const CollapseOutcome& out
     line(outcome.counts.negative, "have a negative channel, outside the gamut");
     line(outcome.clipped_pixels, "were clipped to 0 to 1");
     if (outcome.clamped_samples > 0)
-        out += fmt::format("note: {} samples beyond +-65504 were written as +-65504\n",
-                           outcome.clamped_samples);
+        out +=
+            fmt::format("note: {} samples beyond +-65504 were written as +-65504\n", outcome.clamped_samples);
     return out;
 }
 

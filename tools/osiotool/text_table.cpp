@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tools/osiotool/text_table.h>
 
-#include <algorithm>
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace osio::tool {
 

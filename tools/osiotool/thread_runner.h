@@ -12,6 +12,7 @@ class ThreadRunner final : public Runner {
     explicit ThreadRunner(unsigned threads);
 
     [[nodiscard]] unsigned worker_count() const override { return m_count; }
+
     void run(const std::function<void(unsigned worker)>& body) override;
 
   private:

@@ -33,8 +33,8 @@ struct Matrix3 {
     Matrix3 out;
     for (std::size_t r = 0; r < 3; ++r)
         for (std::size_t c = 0; c < 3; ++c)
-            out.rows[r][c] = a.rows[r][0] * b.rows[0][c] + a.rows[r][1] * b.rows[1][c] +
-                             a.rows[r][2] * b.rows[2][c];
+            out.rows[r][c] =
+                a.rows[r][0] * b.rows[0][c] + a.rows[r][1] * b.rows[1][c] + a.rows[r][2] * b.rows[2][c];
     return out;
 }
 

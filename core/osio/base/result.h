@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <tl/expected.hpp>
+
 #include <string>
 #include <string_view>
-#include <tl/expected.hpp>
 #include <utility>
 
 namespace osio {
@@ -41,8 +42,7 @@ template <class T>
 using Result = tl::expected<T, Error>;
 
 /// The failing side of a Result.
-[[nodiscard]] inline tl::unexpected<Error> fail(ErrorCode code, std::string what,
-                                                std::string where = {}) {
+[[nodiscard]] inline tl::unexpected<Error> fail(ErrorCode code, std::string what, std::string where = {}) {
     return tl::unexpected<Error>(Error{code, std::move(what), std::move(where)});
 }
 
@@ -65,16 +65,16 @@ using Result = tl::expected<T, Error>;
 #define OSIO_JOIN(a, b) OSIO_JOIN_IMPL(a, b)
 
 /// `OSIO_TRY(auto x, expression)`: x is the value, or the enclosing function returns the error.
-#define OSIO_TRY(declaration, expression)                                   \
-    auto OSIO_JOIN(osio_result_, __LINE__) = (expression);                  \
-    if (!OSIO_JOIN(osio_result_, __LINE__))                                 \
+#define OSIO_TRY(declaration, expression)                                            \
+    auto OSIO_JOIN(osio_result_, __LINE__) = (expression);                           \
+    if (!OSIO_JOIN(osio_result_, __LINE__))                                          \
         return tl::unexpected(std::move(OSIO_JOIN(osio_result_, __LINE__)).error()); \
     declaration = std::move(*OSIO_JOIN(osio_result_, __LINE__))
 
 /// `OSIO_CHECK_OK(expression)`: the enclosing function returns the error of a Result<void>.
-#define OSIO_CHECK_OK(expression)                                           \
-    do {                                                                    \
-        auto osio_status = (expression);                                    \
-        if (!osio_status)                                                   \
-            return tl::unexpected(std::move(osio_status).error());          \
+#define OSIO_CHECK_OK(expression)                                  \
+    do {                                                           \
+        auto osio_status = (expression);                           \
+        if (!osio_status)                                          \
+            return tl::unexpected(std::move(osio_status).error()); \
     } while (false)

@@ -105,21 +105,19 @@ std::string format_double(double value) {
     const double magnitude = std::abs(value);
     const bool plain = value == 0 || (magnitude >= 1e-5 && magnitude < 1e15);
     const auto result =
-        plain ? std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                              std::chars_format::fixed)
+        plain ? std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed)
               : std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
     return {buffer.data(), result.ptr};
 }
 
 std::string format_fixed(double value, int digits) {
     std::array<char, 400> buffer{};
-    const auto result = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
-                                      std::chars_format::fixed, digits);
+    const auto result =
+        std::to_chars(buffer.data(), buffer.data() + buffer.size(), value, std::chars_format::fixed, digits);
     return {buffer.data(), result.ptr};
 }
 
-std::optional<std::string> nearest_name(std::string_view text,
-                                        std::span<const std::string> candidates) {
+std::optional<std::string> nearest_name(std::string_view text, std::span<const std::string> candidates) {
     const auto closer = [text](const std::string& a, const std::string& b) {
         return edit_distance(text, a) < edit_distance(text, b);
     };

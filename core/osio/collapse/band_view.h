@@ -39,8 +39,7 @@ struct BandView {
     [[nodiscard]] BandView advanced(std::size_t pixels) const {
         if (data == nullptr)
             return *this;
-        return {data + static_cast<std::ptrdiff_t>(pixels) * pixel_stride_bytes, type,
-                pixel_stride_bytes};
+        return {data + static_cast<std::ptrdiff_t>(pixels) * pixel_stride_bytes, type, pixel_stride_bytes};
     }
 };
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <osio/collapse/collapse_stream.h>
-
 #include <osio/collapse/kernel.h>
 
 #include <algorithm>
@@ -43,8 +42,7 @@ class Collapser final : public BlockVisitor {
         if (m_plan.space.transfer == Transfer::Srgb)
             encode(pixels);
         m_first_row = std::max(m_shared.rows.first, block.first_row);
-        m_row_count =
-            std::min(m_shared.rows.last, block.first_row + block.row_count - 1) - m_first_row + 1;
+        m_row_count = std::min(m_shared.rows.last, block.first_row + block.row_count - 1) - m_first_row + 1;
         m_counts = count(rows_of(block));
     }
 
@@ -56,8 +54,7 @@ class Collapser final : public BlockVisitor {
   private:
     /// The wanted rows of the last block, one pointer a channel.
     [[nodiscard]] std::vector<const float*> rows_of(const PlanarBlock& block) const {
-        const std::size_t skip =
-            static_cast<std::size_t>(m_first_row - block.first_row) * m_shared.width;
+        const std::size_t skip = static_cast<std::size_t>(m_first_row - block.first_row) * m_shared.width;
         std::vector<const float*> out;
         for (const float* plane : m_pointers)
             out.push_back(plane + skip);
@@ -113,8 +110,8 @@ CollapseCounts& CollapseCounts::operator+=(const CollapseCounts& other) {
     return *this;
 }
 
-Result<CollapseCounts> collapse_stream(const BlockSource& source, const CollapsePlan& plan,
-                                       bool has_alpha, RowRange rows, RowSink& sink, Runner& runner,
+Result<CollapseCounts> collapse_stream(const BlockSource& source, const CollapsePlan& plan, bool has_alpha,
+                                       RowRange rows, RowSink& sink, Runner& runner,
                                        const Progress& progress) {
     Collapse collapse{plan, has_alpha, static_cast<std::size_t>(source.width()), rows, sink, {}};
     const auto start = [&] { return std::make_unique<Collapser>(collapse); };

@@ -34,9 +34,8 @@ struct CollapseCounts {
 /// plan's bands in the plan's order (null where no output needs one), then alpha where `has_alpha`;
 /// the sink gets the plan's outputs, then alpha as it was. Colour stays associated with alpha: a
 /// space with a curve is encoded from unassociated colour and associated again.
-[[nodiscard]] Result<CollapseCounts> collapse_stream(const BlockSource& source,
-                                                     const CollapsePlan& plan, bool has_alpha,
-                                                     RowRange rows, RowSink& sink, Runner& runner,
-                                                     const Progress& progress);
+[[nodiscard]] Result<CollapseCounts> collapse_stream(const BlockSource& source, const CollapsePlan& plan,
+                                                     bool has_alpha, RowRange rows, RowSink& sink,
+                                                     Runner& runner, const Progress& progress);
 
 }  // namespace osio

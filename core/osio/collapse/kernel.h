@@ -21,8 +21,8 @@ void collapse_run_reference(std::span<const BandView> bands, const WeightMatrix&
 
 /// The same, in SIMD for contiguous half and float samples of three outputs, on the widest
 /// instruction set of this machine; collapse_run_reference for all else.
-void collapse_run(std::span<const BandView> bands, const WeightMatrix& weights,
-                  std::size_t pixel_count, std::span<float* const> out);
+void collapse_run(std::span<const BandView> bands, const WeightMatrix& weights, std::size_t pixel_count,
+                  std::span<float* const> out);
 
 /// One sample as a double.
 [[nodiscard]] double sample_at(const BandView& band, std::size_t pixel);

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Compiled with -ffp-contract=off: weight x sample is rounded before it is added.
-#include <osio/collapse/kernel.h>
-
 #include <osio/base/half.h>
+#include <osio/collapse/kernel.h>
 
 #include <cstring>
 

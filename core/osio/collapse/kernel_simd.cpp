@@ -2,9 +2,8 @@
 //
 // The only file that includes Highway. It is compiled once for each instruction set, with
 // -ffp-contract=off: a compiler that fused Add(Mul(...)) would change the last bit.
-#include <osio/collapse/kernel.h>
-
 #include <osio/base/half.h>
+#include <osio/collapse/kernel.h>
 
 #include <algorithm>
 #include <array>
@@ -17,6 +16,7 @@
 #include <hwy/highway.h>
 
 HWY_BEFORE_NAMESPACE();
+
 namespace osio {
 namespace HWY_NAMESPACE {
 
@@ -55,8 +55,8 @@ HWY_INLINE hn::Vec<Doubles> load_halves(const std::byte* from) {
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
 
 /// kVectors x Lanes pixels starting at `pixel`; every band contiguous, half or float.
-static void collapse_group(std::span<const BandView> bands, const WeightMatrix& weights,
-                           std::size_t pixel, std::span<float* const> out) {
+static void collapse_group(std::span<const BandView> bands, const WeightMatrix& weights, std::size_t pixel,
+                           std::span<float* const> out) {
     const Doubles d;
     const Floats floats;
     const std::size_t lanes = hn::Lanes(d);
@@ -133,6 +133,7 @@ static std::size_t collapse_groups(std::span<const BandView> bands, const Weight
 
 }  // namespace HWY_NAMESPACE
 }  // namespace osio
+
 HWY_AFTER_NAMESPACE();
 
 #if HWY_ONCE
@@ -144,14 +145,14 @@ namespace {
 
 bool vectorisable(const BandView& band) {
     const auto address = reinterpret_cast<std::uintptr_t>(band.data);
-    return band.data == nullptr || (band.type != SampleType::Uint && band.contiguous() &&
-                                    address % sample_bytes(band.type) == 0);
+    return band.data == nullptr ||
+           (band.type != SampleType::Uint && band.contiguous() && address % sample_bytes(band.type) == 0);
 }
 
 }  // namespace
 
-void collapse_run(std::span<const BandView> bands, const WeightMatrix& weights,
-                  std::size_t pixel_count, std::span<float* const> out) {
+void collapse_run(std::span<const BandView> bands, const WeightMatrix& weights, std::size_t pixel_count,
+                  std::span<float* const> out) {
     std::size_t done = 0;
     if (weights.rows() == 3 && std::all_of(bands.begin(), bands.end(), vectorisable))
         done = HWY_DYNAMIC_DISPATCH(collapse_groups)(bands, weights, pixel_count, out);

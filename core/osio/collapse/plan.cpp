@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <osio/collapse/plan.h>
-
 #include <osio/base/fingerprint.h>
 #include <osio/base/text.h>
+#include <osio/collapse/plan.h>
 
 #include <algorithm>
 #include <array>
@@ -75,8 +74,10 @@ Result<void> check_quantity(const SpectralSet& set, const CollapseRequest& reque
                         "illuminant=D65 (osiotool list illuminants)");
     if (set.quantity() == Quantity::Radiance && !request.illuminant.empty())
         return fail(ErrorCode::UnexpectedIlluminant,
-                    "set " + set.name() + " is a radiance, which already holds its light; leave "
-                                          "illuminant=" + request.illuminant + " out");
+                    "set " + set.name() +
+                        " is a radiance, which already holds its light; leave "
+                        "illuminant=" +
+                        request.illuminant + " out");
     return {};
 }
 
@@ -86,9 +87,8 @@ Result<void> check_grid(const SpectralSet& set, const CollapseRequest& request,
         return fail(ErrorCode::InvalidGrid, "set " + set.name() + " holds no band");
     const std::string range = format_double(nm.front()) + "-" + format_double(nm.back()) + " nm";
     if (nm.front() > kObserverLastNm || nm.back() < kObserverFirstNm)
-        return fail(ErrorCode::BandsOutsideObserver,
-                    "the bands of set " + set.name() + " cover " + range +
-                        ", nothing of the 360-830 nm that an observer sees");
+        return fail(ErrorCode::BandsOutsideObserver, "the bands of set " + set.name() + " cover " + range +
+                                                         ", nothing of the 360-830 nm that an observer sees");
     if (nm.size() == 1 && request.extrapolation == Extrapolation::Zero)
         return fail(ErrorCode::InvalidGrid,
                     "set " + set.name() + " has one wavelength, " + format_double(nm[0]) +
@@ -98,16 +98,14 @@ Result<void> check_grid(const SpectralSet& set, const CollapseRequest& request,
 
 Result<void> check_names(const CollapseRequest& request) {
     if (request.names == OutputNames::Layout)
-        return fail(ErrorCode::Usage, "names=layout is for bands; with to=" +
-                                          std::string(request.to->id) + " use rgb or xyz");
-    if (request.names == OutputNames::Xyz && request.to->kind == SpaceKind::Rgb)
         return fail(ErrorCode::Usage,
-                    "names=xyz does not fit to=" + std::string(request.to->id) +
-                        ", whose values are red, green and blue");
+                    "names=layout is for bands; with to=" + std::string(request.to->id) + " use rgb or xyz");
+    if (request.names == OutputNames::Xyz && request.to->kind == SpaceKind::Rgb)
+        return fail(ErrorCode::Usage, "names=xyz does not fit to=" + std::string(request.to->id) +
+                                          ", whose values are red, green and blue");
     if (!request.white.empty() && request.to->kind == SpaceKind::Xyz)
         return fail(ErrorCode::Usage,
-                    "white=" + request.white +
-                        " does not fit to=xyz, which is not adapted; use to=xyz_d65");
+                    "white=" + request.white + " does not fit to=xyz, which is not adapted; use to=xyz_d65");
     return {};
 }
 
@@ -134,12 +132,11 @@ class PlanMaker {
   private:
     Result<void> check() {
         if (!m_plan.request.to)
-            return fail(ErrorCode::Usage, "no space to collapse to was named; use to=" +
-                                              join(output_space_names(), ", to="));
+            return fail(ErrorCode::Usage,
+                        "no space to collapse to was named; use to=" + join(output_space_names(), ", to="));
         m_plan.space = *m_plan.request.to;
-        m_plan.outputs = m_plan.space.kind == SpaceKind::Rgb
-                             ? std::vector<std::string>{"R", "G", "B"}
-                             : std::vector<std::string>{"X", "Y", "Z"};
+        m_plan.outputs = m_plan.space.kind == SpaceKind::Rgb ? std::vector<std::string>{"R", "G", "B"}
+                                                             : std::vector<std::string>{"X", "Y", "Z"};
         OSIO_CHECK_OK(check_names(m_plan.request));
         OSIO_CHECK_OK(check_quantity(m_set, m_plan.request));
         m_distinct = distinct(m_plan.bands);
@@ -165,8 +162,8 @@ class PlanMaker {
             OSIO_TRY(white, white_point(*m_plan.illuminant, m_plan.observer, m_plan.quadrature));
         }
         if (!m_plan.request.white.empty()) {
-            OSIO_TRY(white, parse_white(m_plan.request.white, m_plan.observer, m_plan.quadrature,
-                                        m_load_text));
+            OSIO_TRY(white,
+                     parse_white(m_plan.request.white, m_plan.observer, m_plan.quadrature, m_load_text));
         }
         m_output_from_xyz = Matrix3::diagonal({gain, gain, gain});
         if (m_plan.space.kind == SpaceKind::Xyz)
@@ -185,16 +182,15 @@ class PlanMaker {
         const double k = 1 / integral(m_light, y, m_plan.quadrature);
         std::array<std::vector<double>, 3> xyz;
         for (std::size_t c = 0; c < 3; ++c)
-            xyz[c] = linear_basis_integrals(m_distinct.wavelengths_nm, m_light,
-                                            m_plan.observer.curves[c],
+            xyz[c] = linear_basis_integrals(m_distinct.wavelengths_nm, m_light, m_plan.observer.curves[c],
                                             m_plan.request.extrapolation, m_plan.quadrature);
         m_plan.weights = WeightMatrix(3, m_plan.bands.size());
         for (std::size_t band = 0; band < m_plan.bands.size(); ++band) {
             const std::size_t i = m_distinct.index_of_band[band];
             // Bands that share a wavelength share its weight: the collapse takes their mean.
             const double scale = k / static_cast<double>(m_distinct.bands_at[i]);
-            const Vector3 out = m_output_from_xyz *
-                                Vector3{scale * xyz[0][i], scale * xyz[1][i], scale * xyz[2][i]};
+            const Vector3 out =
+                m_output_from_xyz * Vector3{scale * xyz[0][i], scale * xyz[1][i], scale * xyz[2][i]};
             for (std::size_t row = 0; row < 3; ++row)
                 m_plan.weights.at(row, band) = out[row];
         }
@@ -209,8 +205,7 @@ class PlanMaker {
             const double nm = kObserverFirstNm + static_cast<double>(i);
             const auto& c = m_plan.observer.curves;
             const Vector3 weight =
-                m_output_from_xyz *
-                Vector3{m_light[i] * c[0][i], m_light[i] * c[1][i], m_light[i] * c[2][i]};
+                m_output_from_xyz * Vector3{m_light[i] * c[0][i], m_light[i] * c[1][i], m_light[i] * c[2][i]};
             for (std::size_t row = 0; row < 3; ++row) {
                 all[row] += std::abs(weight[row]);
                 if (nm < first || nm > last)
@@ -219,8 +214,7 @@ class PlanMaker {
         }
         for (std::size_t row = 0; row < 3; ++row)
             m_plan.extrapolated_share.push_back(all[row] > 0 ? outside[row] / all[row] : 0);
-        warn_of_extrapolation(std::max(0.0, first - kObserverFirstNm),
-                              std::max(0.0, kObserverLastNm - last));
+        warn_of_extrapolation(std::max(0.0, first - kObserverFirstNm), std::max(0.0, kObserverLastNm - last));
     }
 
     void warn_of_extrapolation(double below_nm, double above_nm) {
@@ -234,8 +228,7 @@ class PlanMaker {
         if (largest == 0) {
             text += "no output has weight there";
         } else if (largest <= kExtrapolationWarning) {
-            text += "at most " + format_fixed(std::ceil(1e4 * largest) / 100, 2) +
-                    " % of an output's weight";
+            text += "at most " + format_fixed(std::ceil(1e4 * largest) / 100, 2) + " % of an output's weight";
         } else {
             text += "much of the weight rests on it,";
             for (std::size_t row = 0; row < share.size(); ++row)

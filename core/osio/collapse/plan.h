@@ -23,7 +23,7 @@ using TextLoader = std::function<Result<std::string>(std::string_view path)>;
 /// A request made ready for one set of bands: one row of weights for each output, everything folded
 /// in. A plan is built once and never changed; equal requests on equal bands have equal ids.
 struct CollapsePlan {
-    CollapseRequest request;           ///< with the set that was chosen
+    CollapseRequest request;  ///< with the set that was chosen
     OutputSpace space;
     std::vector<std::string> outputs;  ///< what the rows are: X, Y, Z or R, G, B
     std::vector<Band> bands;           ///< by wavelength
@@ -31,7 +31,7 @@ struct CollapsePlan {
     Observer observer;
     std::optional<Illuminant> illuminant;
     Quadrature quadrature = Quadrature::Sum1nm;
-    std::optional<Vector3> adapted_from;  ///< XYZ of the white that adaptation starts from, Y = 1
+    std::optional<Vector3> adapted_from;     ///< XYZ of the white that adaptation starts from, Y = 1
     std::vector<double> extrapolated_share;  ///< for each output, share of weight beyond the bands
     std::vector<std::string> warnings;
     std::string id;

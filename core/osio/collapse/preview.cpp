@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <osio/collapse/preview.h>
-
 #include <osio/colour/rgb_space.h>
 
 #include <algorithm>
@@ -58,8 +57,7 @@ Matrix3 fit_preview(std::span<const PreviewSample> samples) {
     return rgb_xyz * inverse(xyz_xyz);
 }
 
-PreviewDistance preview_distance(std::span<const PreviewSample> samples,
-                                 const Matrix3& rgb_from_xyz) {
+PreviewDistance preview_distance(std::span<const PreviewSample> samples, const Matrix3& rgb_from_xyz) {
     double difference = 0, picture = 0;
     std::size_t count = 0;
     for (const PreviewSample& s : samples) {
@@ -87,12 +85,10 @@ PreviewDistance preview_distance(std::span<const PreviewSample> samples,
                 break;
             }
     }
-    return {std::sqrt(difference / picture),
-            static_cast<double>(outliers) / static_cast<double>(count)};
+    return {std::sqrt(difference / picture), static_cast<double>(outliers) / static_cast<double>(count)};
 }
 
-bool preview_matches(std::span<const PreviewSample> source,
-                     std::span<const PreviewSample> written) {
+bool preview_matches(std::span<const PreviewSample> source, std::span<const PreviewSample> written) {
     if (source.empty())
         return preview_distance(written, fit_preview(written)).rms <= kAllowedRmsUnknownRecipe;
     const Matrix3 recipe = fit_preview(source);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <osio/collapse/request.h>
-
 #include <osio/base/text.h>
+#include <osio/collapse/request.h>
 #include <osio/colour/observer.h>
 
 #include <array>
@@ -42,8 +41,8 @@ struct Words {
                 return value;
             known.emplace_back(word);
         }
-        return fail(ErrorCode::UnknownName, std::string(key) + " \"" + std::string(text) +
-                                                "\" is unknown" + suggestion(text, known));
+        return fail(ErrorCode::UnknownName,
+                    std::string(key) + " \"" + std::string(text) + "\" is unknown" + suggestion(text, known));
     }
 
     [[nodiscard]] std::string_view name(Value value) const {
@@ -72,8 +71,8 @@ Result<void> set_to(CollapseRequest& request, std::string_view value) {
 Result<void> set_exposure(CollapseRequest& request, std::string_view value) {
     const auto stops = parse_double(value);
     if (!stops || std::abs(*stops) > kMostStops)
-        return fail(ErrorCode::Usage, "exposure \"" + std::string(value) +
-                                          "\" is no number of stops between -100 and 100");
+        return fail(ErrorCode::Usage,
+                    "exposure \"" + std::string(value) + "\" is no number of stops between -100 and 100");
     request.exposure_stops = *stops;
     return {};
 }

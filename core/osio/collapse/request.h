@@ -23,14 +23,14 @@ enum class OutputNames {
 /// Every choice of a collapse, defaulted in one place. The same words serve the command line, file
 /// queries, recipe files and host hints.
 struct CollapseRequest {
-    std::optional<OutputSpace> to;     ///< nothing: the bands themselves
-    std::string illuminant;            ///< a name or the path of a .csv; empty: none
+    std::optional<OutputSpace> to;  ///< nothing: the bands themselves
+    std::string illuminant;         ///< a name or the path of a .csv; empty: none
     std::string observer = "cie1931";
-    std::string part;                  ///< index or name; empty: the only one with bands
-    std::string set;                   ///< "T", "S0", "left.T"; empty: the only one
+    std::string part;  ///< index or name; empty: the only one with bands
+    std::string set;   ///< "T", "S0", "left.T"; empty: the only one
     Basis basis = Basis::Linear;
     Extrapolation extrapolation = Extrapolation::Hold;
-    std::string white;                 ///< an illuminant's name, a .csv or "x,y"; empty: see docs
+    std::string white;  ///< an illuminant's name, a .csv or "x,y"; empty: see docs
     double exposure_stops = 0;
     OutputNames names = OutputNames::Default;
 };
@@ -46,8 +46,7 @@ struct RequestOption {
 [[nodiscard]] std::span<const RequestOption> request_options();
 
 /// Sets one option from its text. Usage or UnknownName says what was found and expected.
-[[nodiscard]] Result<void> set_option(CollapseRequest& request, std::string_view key,
-                                      std::string_view value);
+[[nodiscard]] Result<void> set_option(CollapseRequest& request, std::string_view key, std::string_view value);
 
 /// The request as `key=value&...`: every choice that matters to the result, defaults included, in a
 /// fixed order. Reading it back gives the same request.

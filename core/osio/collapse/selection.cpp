@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <osio/collapse/selection.h>
-
 #include <osio/base/text.h>
+#include <osio/collapse/selection.h>
 #include <osio/layout/dialect.h>
 
 #include <algorithm>
@@ -38,8 +37,7 @@ std::string list_sets(std::span<const PartSummary> parts, std::span<const Select
     return join(labels, ", ");
 }
 
-tl::unexpected<Error> not_spectral(std::span<const PartSummary> parts,
-                                   std::span<const std::size_t> chosen) {
+tl::unexpected<Error> not_spectral(std::span<const PartSummary> parts, std::span<const std::size_t> chosen) {
     std::vector<std::string> names;
     for (const std::size_t part : chosen) {
         const auto& channels = parts[part].layout->channel_names;
@@ -53,8 +51,8 @@ tl::unexpected<Error> not_spectral(std::span<const PartSummary> parts,
     const std::size_t count = names.size();
     names.resize(std::min(count, kChannelsInError));
     return fail(ErrorCode::NotSpectral,
-                "no spectral band among " + std::to_string(count) + " channels (" +
-                    join(names, ", ") + (count > kChannelsInError ? ", ..." : "") +
+                "no spectral band among " + std::to_string(count) + " channels (" + join(names, ", ") +
+                    (count > kChannelsInError ? ", ..." : "") +
                     "); expected channels of the spectral EXR layout such as T.450nm or S0.450nm");
 }
 
@@ -65,9 +63,8 @@ bool stands_back(const SpectralSet& set) {
 Result<void> check_samples(std::span<const PartSummary> parts, const Selection& selection) {
     const PartSummary& part = parts[selection.part];
     if (part.deep)
-        return fail(ErrorCode::Unsupported,
-                    part_label(parts, selection.part) +
-                        " is deep (several samples a pixel); flatten it first");
+        return fail(ErrorCode::Unsupported, part_label(parts, selection.part) +
+                                                " is deep (several samples a pixel); flatten it first");
     const SpectralSet& set = part.layout->sets[selection.set];
     for (const Band& band : set.bands)
         if (part.subsampled[band.channel])
@@ -117,12 +114,11 @@ Result<Selection> select_set(std::span<const PartSummary> parts, const CollapseR
     if (fitting.empty() && request.set.empty())
         fitting = all;
     if (fitting.empty())
-        return fail(ErrorCode::NoSuchPart, "there is no set \"" + request.set + "\"; found " +
-                                               list_sets(parts, all));
+        return fail(ErrorCode::NoSuchPart,
+                    "there is no set \"" + request.set + "\"; found " + list_sets(parts, all));
     if (fitting.size() > 1)
-        return fail(ErrorCode::Ambiguous,
-                    "several sets of bands fit: " + list_sets(parts, fitting) +
-                        "; name one with set=... or part=...");
+        return fail(ErrorCode::Ambiguous, "several sets of bands fit: " + list_sets(parts, fitting) +
+                                              "; name one with set=... or part=...");
     OSIO_CHECK_OK(check_samples(parts, fitting.front()));
     return fitting.front();
 }

@@ -17,8 +17,8 @@ struct PartSummary {
     std::string name;  ///< empty in most single-part files
     const ChannelLayout* layout = nullptr;
     std::vector<std::string> attribute_names;
-    bool deep = false;                 ///< several samples a pixel
-    std::vector<bool> subsampled;      ///< by channel: fewer samples than pixels
+    bool deep = false;             ///< several samples a pixel
+    std::vector<bool> subsampled;  ///< by channel: fewer samples than pixels
 };
 
 /// One set of bands in one part.
@@ -28,8 +28,7 @@ struct Selection {
 };
 
 /// The part of that name, else of that index. NoSuchPart lists the parts.
-[[nodiscard]] Result<std::size_t> select_part(std::span<const PartSummary> parts,
-                                              const std::string& part);
+[[nodiscard]] Result<std::size_t> select_part(std::span<const PartSummary> parts, const std::string& part);
 
 /// The set that a request means: `part` and `set` where they are given, otherwise the only set of
 /// the file (S1, S2 and S3 stand back where there is S0 or T). Refuses what is not there or fits

@@ -65,8 +65,8 @@ class Turnstile {
 
 }  // namespace
 
-Result<void> visit_blocks(const BlockSource& source, RowRange rows, Runner& runner,
-                          const StartVisitor& start, const Progress& progress) {
+Result<void> visit_blocks(const BlockSource& source, RowRange rows, Runner& runner, const StartVisitor& start,
+                          const Progress& progress) {
     const std::size_t first = source.block_of_row(rows.first);
     const std::size_t end = source.block_of_row(rows.last) + 1;
     Turnstile turnstile(first, end);

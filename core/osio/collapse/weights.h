@@ -12,18 +12,20 @@ namespace osio {
 class WeightMatrix {
   public:
     WeightMatrix() = default;
+
     WeightMatrix(std::size_t rows, std::size_t bands)
         : m_rows(rows), m_bands(bands), m_values(rows * bands, 0.0) {}
 
     [[nodiscard]] std::size_t rows() const { return m_rows; }
+
     [[nodiscard]] std::size_t bands() const { return m_bands; }
 
     [[nodiscard]] double at(std::size_t row, std::size_t band) const {
         return m_values[row * m_bands + band];
     }
-    [[nodiscard]] double& at(std::size_t row, std::size_t band) {
-        return m_values[row * m_bands + band];
-    }
+
+    [[nodiscard]] double& at(std::size_t row, std::size_t band) { return m_values[row * m_bands + band]; }
+
     [[nodiscard]] std::span<const double> row(std::size_t row) const {
         return std::span<const double>(m_values).subspan(row * m_bands, m_bands);
     }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <osio/colour/illuminant.h>
-
 #include <osio/base/fingerprint.h>
 #include <osio/base/text.h>
+#include <osio/colour/illuminant.h>
 #include <osio/data/tables.h>
 
 #include <algorithm>
@@ -52,8 +51,8 @@ Result<Illuminant> find_illuminant(std::string_view name) {
                         suggestion(name, illuminant_names()) +
                         " (a table of your own is named by its path and ends in .csv)");
     const auto index = static_cast<std::size_t>(column - table.columns.begin());
-    Illuminant out{std::string(*column), std::string(table.sources[index]), {},
-                   sampled_at_1nm(*table.column(*column))};
+    Illuminant out{
+        std::string(*column), std::string(table.sources[index]), {}, sampled_at_1nm(*table.column(*column))};
     out.digest = digest_of(out.power);
     return out;
 }
@@ -85,8 +84,7 @@ std::vector<std::string> illuminant_names() {
     return {table.columns.begin(), table.columns.end()};
 }
 
-Result<Vector3> white_point(const Illuminant& light, const Observer& observer,
-                            Quadrature quadrature) {
+Result<Vector3> white_point(const Illuminant& light, const Observer& observer, Quadrature quadrature) {
     Vector3 xyz{};
     for (std::size_t c = 0; c < 3; ++c)
         xyz[c] = integral(light.power, observer.curves[c], quadrature);

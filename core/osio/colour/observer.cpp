@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <osio/colour/observer.h>
-
 #include <osio/base/text.h>
+#include <osio/colour/observer.h>
 #include <osio/data/tables.h>
 
 #include <algorithm>
@@ -31,8 +30,8 @@ Result<Observer> find_observer(std::string_view name) {
         }
         return out;
     }
-    return fail(ErrorCode::UnknownName, "no observer is called \"" + std::string(name) + "\"" +
-                                            suggestion(name, observer_names()));
+    return fail(ErrorCode::UnknownName,
+                "no observer is called \"" + std::string(name) + "\"" + suggestion(name, observer_names()));
 }
 
 std::vector<std::string> observer_names() {

@@ -13,9 +13,9 @@ namespace osio {
 
 /// A standard observer: three colour-matching functions at 1 nm, 360-830 nm.
 struct Observer {
-    std::string id;      ///< "cie1931"
-    std::string source;  ///< standard and edition
-    std::string sha256;  ///< of the table's bytes
+    std::string id;                     ///< "cie1931"
+    std::string source;                 ///< standard and edition
+    std::string sha256;                 ///< of the table's bytes
     std::array<NmSamples, 3> curves{};  ///< x, y, z
 };
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <osio/colour/rgb_space.h>
-
 #include <osio/base/text.h>
+#include <osio/colour/rgb_space.h>
 
 #include <array>
 #include <cmath>
@@ -17,25 +16,66 @@ constexpr Chromaticity kX{1, 0}, kY{0, 1}, kZ{0, 0}, kEqualEnergy{1.0 / 3.0, 1.0
 /// OCIO configs for ACES, which have them since OCIO 2.1.
 constexpr std::array<OutputSpace, 8> kSpaces{{
     {"xyz", "", "", SpaceKind::Xyz, Transfer::Linear, kX, kY, kZ, kEqualEnergy},
-    {"xyz_d65", "lin_ciexyzd65_scene|cie_xyz_d65_scene|CIE XYZ-D65 - Scene-referred",
-     "lin_ciexyzd65_scene", SpaceKind::XyzD65, Transfer::Linear, kX, kY, kZ, kEqualEnergy},
-    {"lin_rec709", "lin_rec709_scene|lin_rec709_srgb|lin_srgb|Linear Rec.709 (sRGB)", "lin_rec709",
-     SpaceKind::Rgb, Transfer::Linear, {0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, kD65},
-    {"lin_p3d65", "lin_p3d65_scene|lin_displayp3|Linear P3-D65", "lin_p3d65", SpaceKind::Rgb,
-     Transfer::Linear, {0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060}, kD65},
-    {"lin_rec2020", "lin_rec2020_scene|Linear Rec.2020", "lin_rec2020", SpaceKind::Rgb,
-     Transfer::Linear, {0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, kD65},
-    {"acescg", "lin_ap1|lin_ap1_scene|ACES - ACEScg", "ACEScg", SpaceKind::Rgb, Transfer::Linear,
-     {0.713, 0.293}, {0.165, 0.830}, {0.128, 0.044}, kAcesWhite},
-    {"aces2065_1", "ACES2065-1|lin_ap0|lin_ap0_scene|ACES - ACES2065-1", "ACES2065-1",
-     SpaceKind::Rgb, Transfer::Linear, {0.7347, 0.2653}, {0, 1}, {0.0001, -0.0770}, kAcesWhite},
-    {"srgb", "srgb_tx|srgb_texture|srgb_rec709_scene|sRGB - Texture", "sRGB", SpaceKind::Rgb,
-     Transfer::Srgb, {0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}, kD65},
+    {"xyz_d65", "lin_ciexyzd65_scene|cie_xyz_d65_scene|CIE XYZ-D65 - Scene-referred", "lin_ciexyzd65_scene",
+     SpaceKind::XyzD65, Transfer::Linear, kX, kY, kZ, kEqualEnergy},
+    {"lin_rec709",
+     "lin_rec709_scene|lin_rec709_srgb|lin_srgb|Linear Rec.709 (sRGB)",
+     "lin_rec709",
+     SpaceKind::Rgb,
+     Transfer::Linear,
+     {0.64, 0.33},
+     {0.30, 0.60},
+     {0.15, 0.06},
+     kD65},
+    {"lin_p3d65",
+     "lin_p3d65_scene|lin_displayp3|Linear P3-D65",
+     "lin_p3d65",
+     SpaceKind::Rgb,
+     Transfer::Linear,
+     {0.680, 0.320},
+     {0.265, 0.690},
+     {0.150, 0.060},
+     kD65},
+    {"lin_rec2020",
+     "lin_rec2020_scene|Linear Rec.2020",
+     "lin_rec2020",
+     SpaceKind::Rgb,
+     Transfer::Linear,
+     {0.708, 0.292},
+     {0.170, 0.797},
+     {0.131, 0.046},
+     kD65},
+    {"acescg",
+     "lin_ap1|lin_ap1_scene|ACES - ACEScg",
+     "ACEScg",
+     SpaceKind::Rgb,
+     Transfer::Linear,
+     {0.713, 0.293},
+     {0.165, 0.830},
+     {0.128, 0.044},
+     kAcesWhite},
+    {"aces2065_1",
+     "ACES2065-1|lin_ap0|lin_ap0_scene|ACES - ACES2065-1",
+     "ACES2065-1",
+     SpaceKind::Rgb,
+     Transfer::Linear,
+     {0.7347, 0.2653},
+     {0, 1},
+     {0.0001, -0.0770},
+     kAcesWhite},
+    {"srgb",
+     "srgb_tx|srgb_texture|srgb_rec709_scene|sRGB - Texture",
+     "sRGB",
+     SpaceKind::Rgb,
+     Transfer::Srgb,
+     {0.64, 0.33},
+     {0.30, 0.60},
+     {0.15, 0.06},
+     kD65},
 }};
 
-constexpr Matrix3 kBradford{{{{0.8951, 0.2664, -0.1614},
-                              {-0.7502, 1.7135, 0.0367},
-                              {0.0389, -0.0685, 1.0296}}}};
+constexpr Matrix3 kBradford{
+    {{{0.8951, 0.2664, -0.1614}, {-0.7502, 1.7135, 0.0367}, {0.0389, -0.0685, 1.0296}}}};
 
 }  // namespace
 

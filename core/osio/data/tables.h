@@ -13,12 +13,12 @@ namespace osio {
 
 /// One CSV file of `data/`: a wavelength column and one or more columns of values.
 struct Table {
-    std::string_view file;                         ///< path below `data/`
-    std::string_view sha256;                       ///< of the file's bytes
-    std::span<const std::string_view> columns;     ///< names, without the wavelength column
-    std::span<const std::string_view> sources;     ///< one for each column
-    std::span<const double> wavelengths_nm;        ///< strictly increasing
-    std::span<const double> cells;                 ///< by rows, columns.size() a row
+    std::string_view file;                      ///< path below `data/`
+    std::string_view sha256;                    ///< of the file's bytes
+    std::span<const std::string_view> columns;  ///< names, without the wavelength column
+    std::span<const std::string_view> sources;  ///< one for each column
+    std::span<const double> wavelengths_nm;     ///< strictly increasing
+    std::span<const double> cells;              ///< by rows, columns.size() a row
 
     /// One column as a curve; nothing when no column has that name (case ignored).
     [[nodiscard]] std::optional<Spectrum> column(std::string_view name) const;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <osio/layout/channel_layout.h>
-
 #include <osio/base/text.h>
+#include <osio/layout/channel_layout.h>
 
 #include <algorithm>
 #include <map>
@@ -54,8 +53,7 @@ void warn_of_near_misses(ChannelLayout& layout) {
         if (looks_like_a_band(layout.channel_names[channel]))
             names.push_back(layout.channel_names[channel]);
     if (!names.empty())
-        layout.warnings.push_back(quoted_list(names) +
-                                  (names.size() == 1 ? " is" : " are") +
+        layout.warnings.push_back(quoted_list(names) + (names.size() == 1 ? " is" : " are") +
                                   " no band: a band name reads FAMILY.NUMBER[PREFIX]UNIT with a "
                                   "comma as decimal mark, such as T.450nm or S0.550,5nm");
 }
@@ -116,14 +114,12 @@ ChannelLayout parse_channel_layout(std::span<const std::string> channel_names, D
     for (auto& [key, set] : sets) {
         set.root = key.first;
         set.family = key.second;
-        std::stable_sort(set.bands.begin(), set.bands.end(), [](const Band& a, const Band& b) {
-            return a.wavelength_nm < b.wavelength_nm;
-        });
-        std::stable_sort(set.reradiation.begin(), set.reradiation.end(),
-                         [](const Reradiation& a, const Reradiation& b) {
-                             return std::pair(a.excited_nm, a.emitted_nm) <
-                                    std::pair(b.excited_nm, b.emitted_nm);
-                         });
+        std::stable_sort(set.bands.begin(), set.bands.end(),
+                         [](const Band& a, const Band& b) { return a.wavelength_nm < b.wavelength_nm; });
+        std::stable_sort(
+            set.reradiation.begin(), set.reradiation.end(), [](const Reradiation& a, const Reradiation& b) {
+                return std::pair(a.excited_nm, a.emitted_nm) < std::pair(b.excited_nm, b.emitted_nm);
+            });
         warn_of_duplicates(set, layout);
         warn_of_reradiation(set, layout);
         layout.sets.push_back(std::move(set));

@@ -49,9 +49,9 @@ struct SpectralSet {
 /// What the channels of one part are.
 struct ChannelLayout {
     std::vector<std::string> channel_names;
-    std::vector<SpectralSet> sets;         ///< by root, then S0, S1, S2, S3, T
-    std::vector<std::size_t> others;       ///< channels that are no bands
-    std::vector<std::string> warnings;     ///< sentences for people
+    std::vector<SpectralSet> sets;      ///< by root, then S0, S1, S2, S3, T
+    std::vector<std::size_t> others;    ///< channels that are no bands
+    std::vector<std::string> warnings;  ///< sentences for people
 
     /// Index of the channel with exactly that name.
     [[nodiscard]] std::optional<std::size_t> find_channel(std::string_view name) const;

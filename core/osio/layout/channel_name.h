@@ -19,10 +19,10 @@ enum class Family { S0, S1, S2, S3, T };
 
 /// A channel name that names a band, or a pair of bands.
 struct ChannelName {
-    std::string root;                     ///< text before the family, without its dot; often empty
+    std::string root;  ///< text before the family, without its dot; often empty
     Family family = Family::T;
-    double wavelength_nm = 0;             ///< of the band; of the exciting light for a pair
-    std::optional<double> emitted_nm;     ///< T.in.out only: where the light comes out again
+    double wavelength_nm = 0;          ///< of the band; of the exciting light for a pair
+    std::optional<double> emitted_nm;  ///< T.in.out only: where the light comes out again
 
     friend bool operator==(const ChannelName&, const ChannelName&) = default;
 };

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <osio/layout/dialect.h>
-
 #include <osio/base/text.h>
+#include <osio/layout/dialect.h>
 
 #include <algorithm>
 #include <array>
@@ -91,8 +90,7 @@ const std::string* at_least_two(std::span<const std::string> names, Fits fits) {
 std::optional<std::string> recognise_dialect(std::span<const std::string> channel_names,
                                              std::span<const std::string> attribute_names) {
     const auto has_attribute = [&](std::string_view name) {
-        return std::find(attribute_names.begin(), attribute_names.end(), name) !=
-               attribute_names.end();
+        return std::find(attribute_names.begin(), attribute_names.end(), name) != attribute_names.end();
     };
     const auto such_as = [](std::string what, const std::string& name) {
         return what + " such as \"" + name + "\"";

@@ -27,8 +27,8 @@ std::string with_another_zero(std::string name, DecimalMark mark) {
     while (first > 0 && is_digit(name[first - 1]))
         --first;
     // A point between two digits is a decimal mark, a point behind a letter ends a field.
-    const bool fraction = first >= 2 && (name[first - 1] == ',' ||
-                                         (name[first - 1] == '.' && is_digit(name[first - 2])));
+    const bool fraction =
+        first >= 2 && (name[first - 1] == ',' || (name[first - 1] == '.' && is_digit(name[first - 2])));
     const char* const more = fraction ? "0" : mark == DecimalMark::Comma ? ",0" : ".0";
     return name.insert(unit, more);
 }

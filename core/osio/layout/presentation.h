@@ -23,8 +23,7 @@ struct PresentedChannel {
 
 /// All channels in the order in which hosts expect them: R, G, B, A first, then the bands set by set
 /// in order of wavelength, then all else as it was. Names are distinct where the file's are.
-[[nodiscard]] std::vector<PresentedChannel> present_channels(const ChannelLayout& layout,
-                                                             BandNames names);
+[[nodiscard]] std::vector<PresentedChannel> present_channels(const ChannelLayout& layout, BandNames names);
 
 /// The names under which channels are written: bands in the layout's spelling in nanometres, others
 /// as they are. A name is read with a comma or a point as its decimal mark. Bands of one wavelength

@@ -45,8 +45,8 @@ class Reader {
             return std::nullopt;
         SpectrumText parsed = parse_spectrum_text(*value);
         if (!parsed.rejected.empty())
-            m_out.warnings.push_back("attribute \"" + std::string(name) + "\": " +
-                                     std::to_string(parsed.rejected.size()) +
+            m_out.warnings.push_back("attribute \"" + std::string(name) +
+                                     "\": " + std::to_string(parsed.rejected.size()) +
                                      " pieces are no wavelength:value, the first is \"" +
                                      parsed.rejected.front().substr(0, 40) + "\"");
         return std::move(parsed.spectrum);
@@ -59,8 +59,7 @@ class Reader {
 
     void warn() {
         const bool emissive = has_family(Family::S0);
-        const bool polarised =
-            has_family(Family::S1) || has_family(Family::S2) || has_family(Family::S3);
+        const bool polarised = has_family(Family::S1) || has_family(Family::S2) || has_family(Family::S3);
         if (!m_out.layout_version)
             m_out.warnings.emplace_back(
                 "no spectralLayoutVersion: read as version 1.0 from the channel names alone");
@@ -68,8 +67,7 @@ class Reader {
             m_out.warnings.push_back("spectralLayoutVersion is \"" + *m_out.layout_version +
                                      "\", not 1.0: read as version 1.0");
         if (emissive && !m_out.emissive_units)
-            m_out.warnings.emplace_back(
-                "no emissiveUnits: taken as W.m^-2.sr^-1 per nanometre");
+            m_out.warnings.emplace_back("no emissiveUnits: taken as W.m^-2.sr^-1 per nanometre");
         else if (emissive && std::find(kKnownEmissiveUnits.begin(), kKnownEmissiveUnits.end(),
                                        *m_out.emissive_units) == kKnownEmissiveUnits.end())
             m_out.warnings.push_back("emissiveUnits is \"" + *m_out.emissive_units +
@@ -89,15 +87,14 @@ class Reader {
 
 }  // namespace
 
-SpectralMetadata read_spectral_metadata(const ChannelLayout& layout,
-                                        const TextAttributes& attributes) {
+SpectralMetadata read_spectral_metadata(const ChannelLayout& layout, const TextAttributes& attributes) {
     return Reader(layout, attributes).read();
 }
 
 bool describes_bands(std::string_view attribute_name) {
-    constexpr std::array<std::string_view, 6> kOwn{
-        attribute::kLayoutVersion, attribute::kEmissiveUnits,    attribute::kHandedness,
-        attribute::kExposureValue, attribute::kLensTransmission, attribute::kCameraResponse};
+    constexpr std::array<std::string_view, 6> kOwn{attribute::kLayoutVersion,    attribute::kEmissiveUnits,
+                                                   attribute::kHandedness,       attribute::kExposureValue,
+                                                   attribute::kLensTransmission, attribute::kCameraResponse};
     return std::find(kOwn.begin(), kOwn.end(), attribute_name) != kOwn.end() ||
            parse_channel_name(attribute_name, DecimalMark::Comma).has_value();
 }

@@ -96,9 +96,7 @@ double integral(const NmSamples& a, const NmSamples& b, Quadrature quadrature) {
             sum += a[i] * b[i];
         return sum;
     }
-    visit_exact({}, [&](double, double nm, double weight) {
-        sum += weight * at_nm(a, nm) * at_nm(b, nm);
-    });
+    visit_exact({}, [&](double, double nm, double weight) { sum += weight * at_nm(a, nm) * at_nm(b, nm); });
     return sum;
 }
 

@@ -43,9 +43,8 @@ enum class Quadrature {
 
 /// Integral of a(lambda) b(lambda) phi_i(lambda) over 360-830 nm for each band of the linear basis;
 /// one number for each band. `bands_nm` must be strictly increasing and not empty.
-[[nodiscard]] std::vector<double> linear_basis_integrals(std::span<const double> bands_nm,
-                                                         const NmSamples& a, const NmSamples& b,
-                                                         Extrapolation extrapolation,
+[[nodiscard]] std::vector<double> linear_basis_integrals(std::span<const double> bands_nm, const NmSamples& a,
+                                                         const NmSamples& b, Extrapolation extrapolation,
                                                          Quadrature quadrature);
 
 }  // namespace osio

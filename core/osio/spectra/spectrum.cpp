@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <osio/spectra/spectrum.h>
-
 #include <osio/base/text.h>
+#include <osio/spectra/spectrum.h>
 #include <osio/spectra/wavelength.h>
 
 #include <algorithm>
@@ -111,8 +110,7 @@ Result<Spectrum> parse_spectrum_csv(std::string_view text) {
     if (out.wavelengths_nm.empty())
         return fail(ErrorCode::Usage, "no line with a wavelength in nm and a value");
     if (out.wavelengths_nm.back() < kSmallestPlausibleLastNm)
-        return fail(ErrorCode::Usage, "the wavelengths end at " +
-                                          format_double(out.wavelengths_nm.back()) +
+        return fail(ErrorCode::Usage, "the wavelengths end at " + format_double(out.wavelengths_nm.back()) +
                                           ": these look like micrometres; nanometres are expected");
     return out;
 }

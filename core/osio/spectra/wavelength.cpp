@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <osio/spectra/wavelength.h>
-
 #include <osio/base/text.h>
+#include <osio/spectra/wavelength.h>
 
 #include <algorithm>
 #include <array>
@@ -18,10 +17,9 @@ struct Prefix {
 
 /// SI prefixes; "da" stands before "d" so that the longer one is tried first.
 constexpr std::array<Prefix, 23> kPrefixes{{
-    {"Y", 24},  {"Z", 21},         {"E", 18},         {"P", 15},  {"T", 12},  {"G", 9},
-    {"M", 6},   {"k", 3},          {"h", 2},          {"da", 1},  {"d", -1},  {"c", -2},
-    {"m", -3},  {"u", -6},         {"\xC2\xB5", -6},  {"\xCE\xBC", -6}, {"n", -9}, {"p", -12},
-    {"f", -15}, {"a", -18},        {"z", -21},        {"y", -24}, {"", 0},
+    {"Y", 24}, {"Z", 21},  {"E", 18},  {"P", 15},  {"T", 12},  {"G", 9},   {"M", 6},         {"k", 3},
+    {"h", 2},  {"da", 1},  {"d", -1},  {"c", -2},  {"m", -3},  {"u", -6},  {"\xC2\xB5", -6}, {"\xCE\xBC", -6},
+    {"n", -9}, {"p", -12}, {"f", -15}, {"a", -18}, {"z", -21}, {"y", -24}, {"", 0},
 }};
 
 bool is_digit(char c) {
@@ -38,8 +36,7 @@ struct Decimal {
 };
 
 std::size_t count_digits(std::string_view text) {
-    return static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), is_digit) -
-                                    text.begin());
+    return static_cast<std::size_t>(std::find_if_not(text.begin(), text.end(), is_digit) - text.begin());
 }
 
 std::optional<Decimal> take_decimal(std::string_view& text, DecimalMark mark) {
