@@ -80,8 +80,8 @@ class ExrFile {
   private:
     explicit ExrFile(std::string path) : m_path(std::move(path)) {}
 
-    Result<void> check_chunks(std::uint64_t file_bytes) const;
-    Result<void> read_headers();
+    [[nodiscard]] Result<void> check_chunks(std::uint64_t file_bytes) const;
+    [[nodiscard]] Result<void> read_headers();
 
     std::string m_path;
     exr_context_t m_context = nullptr;

@@ -81,7 +81,7 @@ constexpr TypeDesc kM33d(TypeDesc::DOUBLE, TypeDesc::MATRIX33);
 constexpr TypeDesc kM44d(TypeDesc::DOUBLE, TypeDesc::MATRIX44);
 constexpr TypeDesc kBox2i(TypeDesc::INT, TypeDesc::VEC2, 2);
 constexpr TypeDesc kBox2f(TypeDesc::FLOAT, TypeDesc::VEC2, 2);
-const TypeDesc kChromaticities(TypeDesc::FLOAT, 8);
+constexpr TypeDesc kChromaticities(TypeDesc::FLOAT, 8);
 
 std::string oiio_name(std::string_view exr) {
     for (const Renamed& name : kRenamed)

@@ -12,8 +12,8 @@ namespace {
 /// What all workers of one collapse share. `counts` belongs to deliver(), one call at a time.
 struct Collapse {
     const CollapsePlan& plan;
-    bool has_alpha;
-    std::size_t width;
+    bool has_alpha = false;
+    std::size_t width = 0;
     RowRange rows;
     RowSink& sink;
     CollapseCounts counts;

@@ -44,7 +44,7 @@ class Turnstile {
         fail_locked(std::move(error));
     }
 
-    std::optional<Error> error() const { return m_error; }
+    [[nodiscard]] std::optional<Error> error() const { return m_error; }
 
   private:
     void fail_locked(Error error) {

@@ -46,8 +46,8 @@ struct OutputSpace {
     std::string_view id;           ///< "lin_rec709"
     std::string_view aliases;      ///< further names, separated by '|'
     std::string_view color_space;  ///< the name for `oiio:ColorSpace`; empty where none is true
-    SpaceKind kind;
-    Transfer transfer;
+    SpaceKind kind{};
+    Transfer transfer{};
     Chromaticity red, green, blue, white;  ///< of the stored primaries
 };
 

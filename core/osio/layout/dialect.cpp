@@ -92,8 +92,8 @@ std::optional<std::string> recognise_dialect(std::span<const std::string> channe
     const auto has_attribute = [&](std::string_view name) {
         return std::find(attribute_names.begin(), attribute_names.end(), name) != attribute_names.end();
     };
-    const auto such_as = [](std::string what, const std::string& name) {
-        return what + " such as \"" + name + "\"";
+    const auto such_as = [](std::string_view what, const std::string& name) {
+        return std::string(what) + " such as \"" + name + "\"";
     };
     if (const auto* name = at_least_two(channel_names, [&](const std::string& channel) {
             return has_attribute(channel + ".wavelength");
