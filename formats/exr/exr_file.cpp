@@ -240,6 +240,15 @@ Result<Imf::Compression> find_compression(std::string_view name) {
                 "no compression is called \"" + std::string(name) + "\"" + suggestion(name, known));
 }
 
+Imf::PixelType pixel_type(SampleType type) {
+    switch (type) {
+    case SampleType::Half: return Imf::HALF;
+    case SampleType::Float: return Imf::FLOAT;
+    case SampleType::Uint: break;
+    }
+    return Imf::UINT;
+}
+
 std::string library_version() {
     int major = 0, minor = 0, patch = 0;
     exr_get_library_version(&major, &minor, &patch, nullptr);

@@ -8,6 +8,7 @@
 #include <osio/layout/spectral_metadata.h>
 
 #include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfPixelType.h>
 #include <OpenEXR/openexr_context.h>
 
 #include <cstdint>
@@ -97,6 +98,9 @@ class ExrFile {
 /// The word for a compression, and the compression for a word (case ignored).
 [[nodiscard]] std::string compression_name(Imf::Compression compression);
 [[nodiscard]] Result<Imf::Compression> find_compression(std::string_view name);
+
+/// OpenEXR's word for a sample's type.
+[[nodiscard]] Imf::PixelType pixel_type(SampleType type);
 
 /// The version of the OpenEXR library that is running, such as "3.1.5".
 [[nodiscard]] std::string library_version();

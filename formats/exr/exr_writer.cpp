@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <formats/exr/exr_file.h>
 #include <formats/exr/exr_writer.h>
 #include <formats/files/checked_file.h>
 #include <formats/files/replacement_file.h>
 
+#include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfThreading.h>
 
-#include <Imath/half.h>
 #include <cmath>
 #include <exception>
 #include <optional>
@@ -46,15 +47,6 @@ class CheckedStream final : public Imf::OStream {
   private:
     files::CheckedFile m_file;
 };
-
-Imf::PixelType pixel_type(SampleType type) {
-    switch (type) {
-    case SampleType::Half: return Imf::HALF;
-    case SampleType::Float: return Imf::FLOAT;
-    case SampleType::Uint: break;
-    }
-    return Imf::UINT;
-}
 
 }  // namespace
 

@@ -12,15 +12,6 @@ namespace osio::exr {
 
 namespace {
 
-Imf::PixelType pixel_type(SampleType type) {
-    switch (type) {
-    case SampleType::Half: return Imf::HALF;
-    case SampleType::Float: return Imf::FLOAT;
-    case SampleType::Uint: break;
-    }
-    return Imf::UINT;
-}
-
 class ImfReader final : public BlockReader {
   public:
     explicit ImfReader(const BlockJob& job)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <plugins/common/exr_metadata.h>
 #include <plugins/spectralexr.imageio/output.h>
+#include <plugins/spectralexr.imageio/spec.h>
 
 #include <formats/exr/exr_file.h>
 #include <formats/exr/output_header.h>
@@ -27,15 +28,6 @@ SampleType stored_type(OIIO::TypeDesc type) {
     case OIIO::TypeDesc::UINT32: return SampleType::Uint;
     default: return SampleType::Float;
     }
-}
-
-OIIO::TypeDesc native_type(SampleType type) {
-    switch (type) {
-    case SampleType::Half: return OIIO::TypeHalf;
-    case SampleType::Float: return OIIO::TypeFloat;
-    case SampleType::Uint: break;
-    }
-    return OIIO::TypeUInt32;
 }
 
 Imf::Header header_of_windows(const OIIO::ImageSpec& spec) {
@@ -112,7 +104,7 @@ Result<void> SpectralExrOutput::start() {
     std::vector<OIIO::TypeDesc> formats;
     for (int c = 0; c < m_spec.nchannels; ++c) {
         m_types.push_back(stored_type(m_spec.channelformat(c)));
-        formats.push_back(native_type(m_types.back()));
+        formats.push_back(host_type(m_types.back()));
         m_offsets.push_back(offset);
         offset += static_cast<std::ptrdiff_t>(sample_bytes(m_types.back()));
     }

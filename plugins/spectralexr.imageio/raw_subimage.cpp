@@ -12,15 +12,6 @@ namespace osio::plugin {
 
 namespace {
 
-OIIO::TypeDesc type_of(SampleType type) {
-    switch (type) {
-    case SampleType::Half: return OIIO::TypeHalf;
-    case SampleType::Float: return OIIO::TypeFloat;
-    case SampleType::Uint: break;
-    }
-    return OIIO::TypeUInt32;
-}
-
 /// Copies a plane into every `stride`-th place; Sample has the size of a sample.
 template <class Sample>
 void interleave(const std::byte* plane, std::size_t count, std::byte* out, std::size_t stride) {
@@ -80,7 +71,7 @@ Result<std::unique_ptr<Subimage>> make_raw_subimage(std::shared_ptr<const exr::E
     exr::PlaneChannels planes;
     spec.channelnames.clear();
     for (const PresentedChannel& channel : present_channels(header.layout, names)) {
-        const OIIO::TypeDesc type = type_of(header.channels[channel.channel].type);
+        const OIIO::TypeDesc type = host_type(header.channels[channel.channel].type);
         if (channel.name == "A")
             spec.alpha_channel = static_cast<int>(planes.size());
         if (channel.name == "Z")

@@ -7,6 +7,16 @@
 
 namespace osio::plugin {
 
+/// The host's word for a sample's type.
+[[nodiscard]] inline OIIO::TypeDesc host_type(SampleType type) {
+    switch (type) {
+    case SampleType::Half: return OIIO::TypeHalf;
+    case SampleType::Float: return OIIO::TypeFloat;
+    case SampleType::Uint: break;
+    }
+    return OIIO::TypeUInt32;
+}
+
 /// A spec with the part's data and display window and nothing else decided: no channels, scanlines.
 [[nodiscard]] inline OIIO::ImageSpec spec_of_windows(const exr::ExrPart& part) {
     OIIO::ImageSpec spec;

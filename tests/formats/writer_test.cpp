@@ -5,9 +5,9 @@
 
 #include <support/exr_files.h>
 
+#include <Imath/half.h>
 #include <gtest/gtest.h>
 
-#include <Imath/half.h>
 #include <cmath>
 #include <csignal>
 #include <cstring>

@@ -5,10 +5,10 @@
 #include <osio/base/half.h>
 #include <osio/collapse/kernel.h>
 
+#include <Imath/half.h>
 #include <gtest/gtest.h>
 #include <hwy/highway.h>
 
-#include <Imath/half.h>
 #include <cmath>
 #include <cstring>
 #include <limits>
