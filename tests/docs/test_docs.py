@@ -88,6 +88,9 @@ class Documents(OsioCase):
 
     def test_readme(self):
         self.assertGreater(self.run_document("README.md"), 1)
+        # Its picture is the one that the demo, which has just run, makes today.
+        self.check("idiff", "-fail", "0.01", os.path.join(SOURCE, "docs", "images", "contact_sheet.png"),
+                   os.path.join(SOURCE, "build", "demo", "contact_sheet.png"))
 
     def test_cli(self):
         self.assertGreater(self.run_document("docs/cli.md"), 1)
