@@ -209,6 +209,33 @@ class Collapse(OsioCase):
         self.osiotool("collapse", "a.exr", "o16.png", "--to", "srgb", "--illuminant", "D65", "-d", "uint16")
         self.assertLessEqual(np.abs(self.read("o16.png")[1] - exact).max(), 0.5 / 65535 + 1e-7)
 
+    def test_windows_are_placed_as_oiiotool_places_them(self):
+        srgb = ("--to", "srgb", "--illuminant", "D65", "-d", "uint8")
+        for origin, full in (((1, 2), (0, 0, 20, 30)), ((-3, -1), (0, 0, 4, 3)), ((0, 0), (2, 1, 3, 3))):
+            self.write_exr("w.exr", self.bands(GRID), origin=origin, full=full)
+            self.osiotool("collapse", "w.exr", "w_srgb.exr", "--to", "srgb", "--illuminant", "D65")
+            for ending in ("png", "tif", "jpg"):
+                self.osiotool("collapse", "w.exr", f"ours.{ending}", *srgb)
+                self.check("oiiotool", "w_srgb.exr", "-d", "uint8", "-o", f"theirs.{ending}")
+                ours, theirs = self.read(f"ours.{ending}"), self.read(f"theirs.{ending}")
+                case = (origin, full, ending)
+                self.assertEqual((ours[0].width, ours[0].height), (theirs[0].width, theirs[0].height), case)
+                self.assertLessEqual(np.abs(ours[1] - theirs[1]).max(), 1.01 / 255, case)
+
+    def test_every_kind_of_file_is_whole_or_refused(self):
+        self.write_exr("a.exr", self.values)
+        for ending in ("png", "tif", "tga", "bmp", "ppm", "jpg", "webp", "dpx", "hdr", "sgi", "jp2", "gif",
+                       "rla", "zfile", "iff", "fits", "psd", "ico", "heic"):
+            name = f"o.{ending}"
+            result = self.run_program(OSIOTOOL, "collapse", "a.exr", name, "--to", "srgb", "--illuminant", "D65",
+                                      "-d", "float" if ending == "hdr" else "uint8", "--quiet")
+            if result.returncode == 0:
+                self.assertEqual(self.read(name)[1].shape[:2], (5, 7), ending)
+            else:
+                self.assertIn(result.returncode, (2, 5), ending + result.stderr)
+                self.assertIn(name, result.stderr)
+                self.assertNotIn(name, self.files())
+
     def test_clipped_clamped_nan_and_negative_pixels_are_counted(self):
         bands = self.bands(GRID, prefix="S0")
         for name in bands:
