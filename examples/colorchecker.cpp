@@ -12,7 +12,7 @@
 #include <osio/colour/illuminant.h>
 #include <osio/data/tables.h>
 #include <osio/layout/channel_layout.h>
-#include <osio/spectra/basis.h>
+#include <osio/spectra/band_integrals.h>
 
 #include <OpenEXR/ImfStringAttribute.h>
 
@@ -28,14 +28,15 @@ constexpr std::size_t kColumns = 6;
 constexpr std::size_t kRows = 4;
 constexpr std::size_t kGrey = 21;  // neutral 5: the grey that gets a twin
 
-/// Weights of the bands for X, Y and Z under D65.
+/// Weights of the bands for X, Y and Z under D65, as a collapse takes samples at equal steps.
 std::array<std::vector<double>, 3> xyz_weights(const Table& table) {
     const NmSamples light = find_illuminant("D65")->power;
     const Observer observer = find_observer("cie1931").value();
+    const BandGrid grid{{table.wavelengths_nm.begin(), table.wavelengths_nm.end()}, {}, {}};
     std::array<std::vector<double>, 3> out;
     for (std::size_t c = 0; c < 3; ++c)
-        out[c] = linear_basis_integrals(table.wavelengths_nm, light, observer.curves[c], Extrapolation::Hold,
-                                        Quadrature::Sum1nm);
+        out[c] = band_integrals(Basis::Sprague, grid, light, observer.curves[c], Extrapolation::Hold,
+                                Quadrature::Sum1nm);
     return out;
 }
 

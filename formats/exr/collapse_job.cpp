@@ -33,9 +33,10 @@ Result<CollapseJob> prepare_collapse(std::shared_ptr<const ExrFile> file, const 
     const auto selection = select_set(summaries, request);
     if (!selection)
         return fail_in(file->path(), selection.error());
-    const ChannelLayout& layout = file->parts()[selection->part].layout;
+    const ExrPart& part = file->parts()[selection->part];
+    const ChannelLayout& layout = part.layout;
     const SpectralSet& set = layout.sets[selection->set];
-    auto plan = make_plan(set, request, load_text);
+    auto plan = make_plan(set, part.metadata, request, load_text);
     if (!plan)
         return fail_in(file->path(), std::move(plan).error());
 

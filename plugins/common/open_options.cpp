@@ -54,6 +54,16 @@ std::string_view without_comment(std::string_view line) {
     return line;
 }
 
+/// A value whose tables are meant relative to the recipe's folder.
+std::string tables_seen_from(const std::string& folder, std::string_view key, const std::string& value) {
+    std::vector<std::string> out;
+    for (const std::string_view piece : split(value, takes_tables(key) ? ',' : '\0')) {
+        const std::string name(trim(piece));
+        out.push_back(takes_tables(key) && is_table_path(name) ? files::seen_from(folder, name) : name);
+    }
+    return join(out, ",");
+}
+
 /// Hints arrive as text, int or float, by how they look; they are read by value, not by type.
 Result<void> apply_hints(const OIIO::ImageSpec& config, CollapseRequest& request) {
     for (const OIIO::ParamValue& hint : config.extra_attribs) {
@@ -95,8 +105,7 @@ Result<OpenRequest> read_recipe(const std::string& path) {
             out.path = files::seen_from(folder, value);
             continue;
         }
-        if ((key == "illuminant" || key == "white") && is_table_path(value))
-            value = files::seen_from(folder, value);
+        value = tables_seen_from(folder, key, value);
         if (auto result = set_option(out.request, key, value); !result)
             return fail_in(where, std::move(result).error());
     }

@@ -124,7 +124,7 @@ class Plan(OsioCase):
             words = ("--illuminant", light) if light else ()
             for observer in ("cie1931", "cie1964"):
                 for hold in (True, False):
-                    plan = self.osiotool_json("plan", "a.exr", "--to", "xyz", *words, "--observer", observer,
+                    plan = self.osiotool_json("plan", "a.exr", "--to", "xyz", *words, "--observer", observer, "--basis", "linear",
                                               "--extrapolate", "hold" if hold else "zero")
                     error = np.abs(np.array(plan["weights"]) - oracle_xyz(GRID, light, observer, hold)).max()
                     self.assertLessEqual(error, 1e-15)
@@ -134,7 +134,8 @@ class Plan(OsioCase):
         self.write_exr("a.exr", self.bands(range(420, 661, 10)))
         text = self.osiotool("plan", "a.exr", *TO_RGB).stdout
         for words in ("recipe       to=lin_rec709&illuminant=D65", "CIE 15:2018 D65 table",
-                      "CIE 1931 2 degree standard colorimetric observer", "linear basis, CIE 15 sum at 1 nm",
+                      "CIE 1931 2 degree standard colorimetric observer", "sprague basis, CIE 15 sum at 1 nm",
+                      "reflectance counts as samples",
                       "extrapolated R", "T.420nm", "Bradford from XYZ"):
             self.assertIn(words, text)
 

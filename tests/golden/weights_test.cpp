@@ -26,7 +26,7 @@ std::string label(const Csv::Row& row) {
 
 CollapsePlan plan_for(const Csv::Row& row, const std::vector<double>& nm, const std::string& more) {
     return plan_of(set_of(Family::T, nm),
-                   "illuminant=" + row.at("illuminant") + "&observer=" + observer_of(row) + more)
+                   "basis=linear&illuminant=" + row.at("illuminant") + "&observer=" + observer_of(row) + more)
         .value();
 }
 
@@ -142,7 +142,7 @@ TEST(GoldenWeights, DegenerateRadianceSpectra) {
             names.push_back("S0." + std::string(i % 3, '0') + format_wavelength(nm[i], DecimalMark::Comma));
         const SpectralSet set = parse_channel_layout(names, DecimalMark::Comma).sets.at(0);
         for (const std::string extrapolate : {"hold", "zero"}) {
-            const auto plan = plan_of(set, "to=xyz&extrapolate=" + extrapolate);
+            const auto plan = plan_of(set, "to=xyz&basis=linear&extrapolate=" + extrapolate);
             if (name == "one_band_550" && extrapolate == "zero") {
                 EXPECT_FALSE(plan);  // a curve of no width: refused
                 continue;

@@ -33,7 +33,9 @@ double largest(const std::vector<double>& values) {
 TEST(Plan, PerfectDiffuserIsWhiteInEverySpaceUnderEveryLight) {
     Bound bound("diffuser in RGB and Y", 1e-12);
     for (const std::string& light : illuminant_names())
-        for (const OutputSpace& space : output_spaces())
+        for (const OutputSpace& space : output_spaces()) {
+            if (space.kind == SpaceKind::Camera || space.kind == SpaceKind::Display)
+                continue;  // need tables of the user's
             for (const auto& grid : {steps(380, 5, 780), steps(400, 10, 700), steps(360, 1, 830)}) {
                 const auto plan =
                     plan_of(set_of(Family::T, grid), "to=" + std::string(space.id) + "&illuminant=" + light)
@@ -43,12 +45,14 @@ TEST(Plan, PerfectDiffuserIsWhiteInEverySpaceUnderEveryLight) {
                     for (const double channel : out)
                         bound.see_absolute(channel, 1, light + " " + std::string(space.id));
                 else
-                    bound.see_absolute(out[1], 1, light + " " + std::string(space.id));
+                    bound.see_absolute(out[space.kind == SpaceKind::Luminance ? 0 : 1], 1,
+                                       light + " " + std::string(space.id));
                 if (space.kind == SpaceKind::XyzD65) {
                     bound.see_absolute(out[0], kD65.xyz()[0], light + " X");
                     bound.see_absolute(out[2], kD65.xyz()[2], light + " Z");
                 }
             }
+        }
 }
 
 TEST(Plan, FlatRadianceOfOneHasUnitY) {
@@ -100,8 +104,8 @@ TEST(Plan, ASampleOnTheLineBetweenItsNeighboursChangesNothing) {
         more_grid.insert(more_grid.begin() + offset, nm);
         more_samples.insert(more_samples.begin() + offset,
                             samples[at - 1] + t * (samples[at] - samples[at - 1]));
-        const auto before = plan_of(set_of(Family::S0, grid), "to=xyz").value();
-        const auto after = plan_of(set_of(Family::S0, more_grid), "to=xyz").value();
+        const auto before = plan_of(set_of(Family::S0, grid), "to=xyz&basis=linear").value();
+        const auto after = plan_of(set_of(Family::S0, more_grid), "to=xyz&basis=linear").value();
         const auto a = outputs_of(before, samples), b = outputs_of(after, more_samples);
         if (before.quadrature != after.quadrature)
             continue;
@@ -114,7 +118,7 @@ TEST(Plan, LinearlyReproducesStraightLinesThroughAnyGrid) {
     // A straight line over wavelength is the same spectrum on every grid that covers 360-830 nm.
     std::mt19937 random(23);
     const auto line = [](double nm) { return 0.2 + 0.001 * (nm - 360); };
-    const auto reference = plan_of(set_of(Family::S0, steps(360, 1, 830)), "to=xyz").value();
+    const auto reference = plan_of(set_of(Family::S0, steps(360, 1, 830)), "to=xyz&basis=linear").value();
     std::vector<double> samples;
     for (const double nm : steps(360, 1, 830))
         samples.push_back(line(nm));
@@ -130,7 +134,8 @@ TEST(Plan, LinearlyReproducesStraightLinesThroughAnyGrid) {
         samples.clear();
         for (const double l : grid)
             samples.push_back(line(l));
-        const auto out = outputs_of(plan_of(set_of(Family::S0, grid), "to=xyz").value(), samples);
+        const auto out =
+            outputs_of(plan_of(set_of(Family::S0, grid), "to=xyz&basis=linear").value(), samples);
         for (std::size_t row = 0; row < 3; ++row)
             bound.see_relative(out[row], expected[row], std::to_string(i));
     }
@@ -212,7 +217,7 @@ TEST(Plan, EqualRequestsHaveEqualIdsAndOthersHaveOthers) {
 
 TEST(Plan, FineBandsAreIntegratedExactlyAndCoarseOnesSummed) {
     const auto rule = [](const std::vector<double>& grid) {
-        return plan_of(set_of(Family::S0, grid), "to=xyz")->quadrature;
+        return plan_of(set_of(Family::S0, grid), "to=xyz&basis=linear")->quadrature;
     };
     EXPECT_EQ(rule(steps(380, 1, 780)), Quadrature::Sum1nm);
     EXPECT_EQ(rule(steps(380, 0.5, 780)), Quadrature::Exact);
@@ -224,8 +229,8 @@ TEST(Plan, FineBandsAreIntegratedExactlyAndCoarseOnesSummed) {
 /// The two rules differ by the half weights that the integral gives to 360 and 830 nm and by the
 /// curvature between whole nanometres: below 1e-4 for what varies over tens of nanometres.
 TEST(Plan, ExactIntegralAndSumAgreeOnSmoothSpectra) {
-    const auto sum = plan_of(set_of(Family::S0, steps(360, 1, 830)), "to=xyz").value();
-    const auto exact = plan_of(set_of(Family::S0, steps(360, 0.5, 830)), "to=xyz").value();
+    const auto sum = plan_of(set_of(Family::S0, steps(360, 1, 830)), "to=xyz&basis=linear").value();
+    const auto exact = plan_of(set_of(Family::S0, steps(360, 0.5, 830)), "to=xyz&basis=linear").value();
     const auto smooth = [](double nm) { return 1 + 0.5 * std::sin(nm / 40); };
     std::vector<double> at_1nm, at_half_nm;
     for (const double nm : steps(360, 1, 830))
@@ -289,7 +294,7 @@ TEST(PlanRefusal, LightsWithoutLuminance) {
 
 TEST(PlanWarning, ExtrapolatedNanometresAreToldAndMuchOfThemByOutput) {
     const auto warnings = [](const std::vector<double>& grid) {
-        return plan_of(set_of(Family::S0, grid), "to=xyz")->warnings;
+        return plan_of(set_of(Family::S0, grid), "to=xyz&basis=linear")->warnings;
     };
     EXPECT_TRUE(warnings(steps(360, 10, 830)).empty());
     EXPECT_EQ(warnings(steps(400, 10, 700)).at(0).substr(0, 83),
@@ -300,8 +305,8 @@ TEST(PlanWarning, ExtrapolatedNanometresAreToldAndMuchOfThemByOutput) {
 
 TEST(PlanWarning, SharesAreTheWeightBeyondTheBands) {
     const auto set = set_of(Family::S0, steps(450, 10, 650));
-    const auto hold = plan_of(set, "to=xyz").value();
-    const auto zero = plan_of(set, "to=xyz&extrapolate=zero").value();
+    const auto hold = plan_of(set, "to=xyz&basis=linear").value();
+    const auto zero = plan_of(set, "to=xyz&basis=linear&extrapolate=zero").value();
     // For XYZ every weight is positive: what zero loses of a flat spectrum is the share of hold.
     for (std::size_t row = 0; row < 3; ++row) {
         const double all = outputs_of(hold, std::vector<double>(21, 1.0))[row];

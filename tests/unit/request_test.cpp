@@ -17,12 +17,14 @@ TEST(Request, ARecipeReadsBackAsTheSameRequest) {
     for (const char* text :
          {"to=lin_rec709&illuminant=D65", "to=xyz", "to=ACEScg&white=0.31,0.33&exposure=-1.5&names=rgb",
           "to=xyz_d65&names=xyz&set=left.T&part=beauty&extrapolate=zero&observer=CIE1964&illuminant=FL11",
-          "to=raw&names=layout"}) {
+          "to=luminance&scale=photometric&basis=bins-corrected&filter=a.csv&filter=b.csv,c.csv&filter-"
+          "normalise=1",
+          "to=display&display=panel.csv&illuminant=D(6200),blackbody(3200)", "to=raw&names=layout"}) {
         const std::string once = recipe_text(request_of(text));
         EXPECT_EQ(recipe_text(request_of(once)), once) << text;
     }
     EXPECT_EQ(recipe_text(request_of("to=srgb&illuminant=A")),
-              "to=srgb&illuminant=A&observer=cie1931&basis=linear&extrapolate=hold&exposure=0");
+              "to=srgb&illuminant=A&observer=cie1931&basis=auto&extrapolate=hold&scale=relative&exposure=0");
 }
 
 TEST(Request, MistypedWordsAreAnsweredWithTheNearest) {
@@ -31,9 +33,10 @@ TEST(Request, MistypedWordsAreAnsweredWithTheNearest) {
     EXPECT_EQ(error_of("to", "lin_rec790"),
               "no output space is called \"lin_rec790\"; did you mean \"lin_rec709\"?");
     EXPECT_EQ(error_of("observer", "cie1913"),
-              "no observer is called \"cie1913\"; did you mean \"cie1931\"?");
+              "no observer is called \"cie1913\"; did you mean \"cie1931\"? (a camera's table of "
+              "nm,R,G,B is named by its path and ends in .csv)");
     EXPECT_EQ(error_of("extrapolate", "hodl"), "extrapolate \"hodl\" is unknown; did you mean \"hold\"?");
-    EXPECT_EQ(error_of("basis", "lineaar"), "basis \"lineaar\" is unknown; did you mean \"linear\"?");
+    EXPECT_EQ(error_of("basis", "lineaar"), "no basis is called \"lineaar\"; did you mean \"linear\"?");
     EXPECT_EQ(error_of("names", "rbg"), "names \"rbg\" is unknown; did you mean \"rgb\"?");
     EXPECT_EQ(error_of("exposure", "bright"),
               "exposure \"bright\" is no number of stops between -100 and 100");

@@ -21,6 +21,8 @@ TextTable illuminants() {
     TextTable table({{"illuminant"}, {"source"}});
     for (const std::string& name : illuminant_names())
         table.add({name, find_illuminant(name)->source});
+    table.add({"D(kelvin)", "CIE daylight by formula, 4000 to 25000 K (CIE 15:2018, 4.1.2)"});
+    table.add({"blackbody(kelvin)", "Planck's law, any temperature above 0 K"});
     return table;
 }
 
@@ -45,8 +47,8 @@ TextTable spaces() {
 
 TextTable bases() {
     TextTable table({{"basis"}, {"meaning"}});
-    table.add(
-        {std::string(basis_name(Basis::Linear)), "straight lines between band samples, summed at 1 nm"});
+    for (const BasisInfo& info : osio::bases())
+        table.add({std::string(info.name), std::string(info.meaning)});
     return table;
 }
 

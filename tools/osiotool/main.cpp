@@ -23,6 +23,13 @@ namespace {
 void add_request_options(CLI::App& command, RequestWords& words) {
     for (const RequestOption& option : request_options()) {
         const std::string key(option.key);
+        if (option.value.empty()) {
+            command
+                .add_flag_callback(
+                    "--" + key, [&words, key] { words.emplace_back(key, "1"); }, std::string(option.help))
+                ->group("Colour");
+            continue;
+        }
         command
             .add_option_function<std::string>(
                 "--" + key, [&words, key](const std::string& value) { words.emplace_back(key, value); },

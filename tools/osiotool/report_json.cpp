@@ -72,6 +72,9 @@ Json plan_object(const exr::CollapseJob& job) {
     }
     for (const Band& band : plan.bands)
         channels.push_back(job.part().layout.channel_names[band.channel]);
+    Json filters = Json::array();
+    for (const Filter& filter : plan.filters)
+        filters.push_back(filter.path);
     const bool reflectance = plan.illuminant.has_value();
     return {{"file", job.file->path()},
             {"part", job.part_index},
@@ -84,9 +87,13 @@ Json plan_object(const exr::CollapseJob& job) {
             {"observer_source", plan.observer.source},
             {"illuminant", reflectance ? Json(plan.illuminant->id) : Json(nullptr)},
             {"illuminant_source", reflectance ? Json(plan.illuminant->source) : Json(nullptr)},
-            {"basis", basis_name(plan.request.basis)},
+            {"filters", std::move(filters)},
+            {"display", plan.display ? Json(plan.display->path) : Json(nullptr)},
+            {"basis", basis_name(plan.basis.basis)},
+            {"basis_reason", plan.basis.reason},
             {"quadrature", plan.quadrature == Quadrature::Sum1nm ? "sum1nm" : "exact"},
             {"extrapolate", extrapolation_name(plan.request.extrapolation)},
+            {"scale", scale_name(plan.request.scale)},
             {"exposure", plan.request.exposure_stops},
             {"adapted_from", plan.adapted_from ? Json(*plan.adapted_from) : Json(nullptr)},
             {"outputs", plan.outputs},

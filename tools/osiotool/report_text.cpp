@@ -126,11 +126,18 @@ std::string plan_text(const exr::CollapseJob& job) {
     out += plan.illuminant
                ? fmt::format("illuminant   {}: {}\n", plan.illuminant->id, plan.illuminant->source)
                : std::string("illuminant   none: the bands are radiance\n");
-    out += fmt::format("integral     {} basis, {}, extrapolate {}\n", basis_name(plan.request.basis),
+    out += fmt::format("integral     {} basis, {}, extrapolate {}\n", basis_name(plan.basis.basis),
                        plan.quadrature == Quadrature::Sum1nm
                            ? "CIE 15 sum at 1 nm over 360-830 nm"
                            : "exact integral over 360-830 nm (bands closer than 1 nm)",
                        extrapolation_name(plan.request.extrapolation));
+    out += fmt::format("basis        {}: {}\n", basis_name(plan.basis.basis), plan.basis.reason);
+    for (const Filter& filter : plan.filters)
+        out += fmt::format("filter       {}\n", filter.path);
+    if (plan.display)
+        out += fmt::format("display      {}\n", plan.display->path);
+    if (plan.request.scale != Scale::Relative)
+        out += fmt::format("scale        {}\n", scale_name(plan.request.scale));
     if (plan.adapted_from) {
         const Vector3& white = *plan.adapted_from;
         out += fmt::format("adaptation   Bradford from XYZ {:.6f} {:.6f} {:.6f}\n", white[0], white[1],

@@ -2,46 +2,23 @@
 #include <osio/base/fingerprint.h>
 #include <osio/base/text.h>
 #include <osio/collapse/plan.h>
+#include <osio/collapse/plan_checks.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <numeric>
 
 namespace osio {
 
 namespace {
 
-/// A share of extrapolated weight above this is worth a warning.
-constexpr double kExtrapolationWarning = 0.05;
+/// Luminous efficacy of 555 nm and of 507 nm light, as CIE's tables of V and V' are normalised:
+/// Kcd = 683 lm/W at 540 THz is exact (SI); K'm = 1700 lm/W (ISO/CIE 23539, rounded).
+constexpr double kPhotopicEfficacyLmPerW = 683;
+constexpr double kScotopicEfficacyLmPerW = 1700;
 
-/// The distinct wavelengths of the bands, and for each band which of them it belongs to.
-struct DistinctBands {
-    std::vector<double> wavelengths_nm;
-    std::vector<std::size_t> index_of_band;
-    std::vector<std::size_t> bands_at;  ///< how many bands share a wavelength
-};
-
-DistinctBands distinct(const std::vector<Band>& bands) {
-    DistinctBands out;
-    for (const Band& band : bands) {
-        if (out.wavelengths_nm.empty() || out.wavelengths_nm.back() != band.wavelength_nm) {
-            out.wavelengths_nm.push_back(band.wavelength_nm);
-            out.bands_at.push_back(0);
-        }
-        ++out.bands_at.back();
-        out.index_of_band.push_back(out.wavelengths_nm.size() - 1);
-    }
-    return out;
-}
-
-/// The light that multiplies the samples: the illuminant on a reflectance, 1 on a radiance.
-NmSamples light_on(const std::optional<Illuminant>& illuminant) {
-    if (illuminant)
-        return illuminant->power;
-    NmSamples ones{};
-    ones.fill(1.0);
-    return ones;
-}
+/// Below this share of a light's power seen by an observer (an ultraviolet lamp, say) 1 / sum is noise.
+constexpr double kSmallestSeenShare = 1e-9;
 
 Result<Illuminant> load_illuminant(const std::string& name, const TextLoader& load_text) {
     if (!is_table_path(name))
@@ -66,54 +43,26 @@ Result<Vector3> parse_white(const std::string& text, const Observer& observer, Q
     return Chromaticity{*x, *y}.xyz();
 }
 
-Result<void> check_quantity(const SpectralSet& set, const CollapseRequest& request) {
-    if (set.quantity() == Quantity::Reflectance && request.illuminant.empty())
-        return fail(ErrorCode::MissingIlluminant,
-                    "set " + set.name() +
-                        " is a reflectance, which has no colour without a light; name one with "
-                        "illuminant=D65 (osiotool list illuminants)");
-    if (set.quantity() == Quantity::Radiance && !request.illuminant.empty())
-        return fail(ErrorCode::UnexpectedIlluminant,
-                    "set " + set.name() +
-                        " is a radiance, which already holds its light; leave "
-                        "illuminant=" +
-                        request.illuminant + " out");
-    return {};
-}
-
-Result<void> check_grid(const SpectralSet& set, const CollapseRequest& request,
-                        const std::vector<double>& nm) {
-    if (nm.empty())
-        return fail(ErrorCode::InvalidGrid, "set " + set.name() + " holds no band");
-    const std::string range = format_double(nm.front()) + "-" + format_double(nm.back()) + " nm";
-    if (nm.front() > kObserverLastNm || nm.back() < kObserverFirstNm)
-        return fail(ErrorCode::BandsOutsideObserver, "the bands of set " + set.name() + " cover " + range +
-                                                         ", nothing of the 360-830 nm that an observer sees");
-    if (nm.size() == 1 && request.extrapolation == Extrapolation::Zero)
-        return fail(ErrorCode::InvalidGrid,
-                    "set " + set.name() + " has one wavelength, " + format_double(nm[0]) +
-                        " nm: with extrapolate=zero its spectrum has no width; use extrapolate=hold");
-    return {};
-}
-
-Result<void> check_names(const CollapseRequest& request) {
-    if (request.names == OutputNames::Layout)
-        return fail(ErrorCode::Usage,
-                    "names=layout is for bands; with to=" + std::string(request.to->id) + " use rgb or xyz");
-    if (request.names == OutputNames::Xyz && request.to->kind == SpaceKind::Rgb)
-        return fail(ErrorCode::Usage, "names=xyz does not fit to=" + std::string(request.to->id) +
-                                          ", whose values are red, green and blue");
-    if (!request.white.empty() && request.to->kind == SpaceKind::Xyz)
-        return fail(ErrorCode::Usage,
-                    "white=" + request.white + " does not fit to=xyz, which is not adapted; use to=xyz_d65");
-    return {};
+/// A display's primaries and white as chromaticities.
+OutputSpace described_by(const Matrix3& xyz_from_rgb, OutputSpace space) {
+    const auto chromaticity = [&](const Vector3& rgb) {
+        const Vector3 xyz = xyz_from_rgb * rgb;
+        const double sum = xyz[0] + xyz[1] + xyz[2];
+        return Chromaticity{xyz[0] / sum, xyz[1] / sum};
+    };
+    space.red = chromaticity({1, 0, 0});
+    space.green = chromaticity({0, 1, 0});
+    space.blue = chromaticity({0, 0, 1});
+    space.white = chromaticity({1, 1, 1});
+    return space;
 }
 
 /// Makes a plan, step by step; each step reads what the ones before it have set.
 class PlanMaker {
   public:
-    PlanMaker(const SpectralSet& set, const CollapseRequest& request, const TextLoader& load_text)
-        : m_set(set), m_load_text(load_text) {
+    PlanMaker(const SpectralSet& set, const SpectralMetadata& metadata, const CollapseRequest& request,
+              const TextLoader& load_text)
+        : m_set(set), m_metadata(metadata), m_load_text(load_text) {
         m_plan.request = request;
         m_plan.request.set = set.name();
         m_plan.bands = set.bands;
@@ -122,8 +71,10 @@ class PlanMaker {
     Result<CollapsePlan> make() {
         OSIO_CHECK_OK(check());
         OSIO_CHECK_OK(look_up());
+        OSIO_CHECK_OK(decide_basis());
+        OSIO_CHECK_OK(choose_white());
         OSIO_CHECK_OK(choose_matrix());
-        weigh_bands();
+        OSIO_CHECK_OK(weigh_bands());
         measure_extrapolation();
         name_it();
         return std::move(m_plan);
@@ -131,33 +82,65 @@ class PlanMaker {
 
   private:
     Result<void> check() {
-        if (!m_plan.request.to)
-            return fail(ErrorCode::Usage,
-                        "no space to collapse to was named; use to=" + join(output_space_names(), ", to="));
-        m_plan.space = *m_plan.request.to;
-        m_plan.outputs = m_plan.space.kind == SpaceKind::Rgb ? std::vector<std::string>{"R", "G", "B"}
-                                                             : std::vector<std::string>{"X", "Y", "Z"};
-        OSIO_CHECK_OK(check_names(m_plan.request));
+        OSIO_CHECK_OK(check_request(m_plan.request));
         OSIO_CHECK_OK(check_quantity(m_set, m_plan.request));
-        m_distinct = distinct(m_plan.bands);
-        return check_grid(m_set, m_plan.request, m_distinct.wavelengths_nm);
+        m_plan.space = *m_plan.request.to;
+        const SpaceKind kind = m_plan.space.kind;
+        m_plan.outputs = is_rgb(kind)                   ? std::vector<std::string>{"R", "G", "B"}
+                         : kind == SpaceKind::Luminance ? std::vector<std::string>{"Y"}
+                                                        : std::vector<std::string>{"X", "Y", "Z"};
+        m_distinct = distinct_bands(m_set, m_metadata);
+        return check_grid(m_set, m_plan.request, m_distinct.grid.wavelengths_nm);
     }
 
     Result<void> look_up() {
-        OSIO_TRY(m_plan.observer, find_observer(m_plan.request.observer));
-        if (!m_plan.request.illuminant.empty()) {
-            OSIO_TRY(m_plan.illuminant, load_illuminant(m_plan.request.illuminant, m_load_text));
+        const CollapseRequest& request = m_plan.request;
+        OSIO_TRY(m_plan.observer, load_observer(request.observer));
+        OSIO_CHECK_OK(check_observer(m_plan.observer, m_plan.space));
+        if (!request.illuminant.empty()) {
+            OSIO_TRY(m_plan.illuminant, load_illuminant(request.illuminant, m_load_text));
             m_plan.request.illuminant = m_plan.illuminant->id;
         }
-        m_light = light_on(m_plan.illuminant);
-        m_plan.quadrature = quadrature_for(m_distinct.wavelengths_nm);
+        m_light.fill(1.0);  // on a radiance
+        if (m_plan.illuminant)
+            m_light = m_plan.illuminant->power;
+        m_filtered = m_light;
+        for (const std::string& path : request.filters) {
+            OSIO_TRY(const std::string csv, m_load_text(path));
+            OSIO_TRY(Filter filter, filter_from_csv(csv, path));
+            for (std::size_t i = 0; i < m_filtered.size(); ++i)
+                m_filtered[i] *= filter.transmittance[i];
+            m_plan.filters.push_back(std::move(filter));
+        }
+        if (!request.display.empty()) {
+            OSIO_TRY(const std::string csv, m_load_text(request.display));
+            OSIO_TRY(m_plan.display, display_from_csv(csv, request.display));
+        }
         return {};
     }
 
-    /// outputs = m_output_from_xyz x (X, Y, Z of the light's own white at Y = 1).
-    Result<void> choose_matrix() {
-        const double gain = std::exp2(m_plan.request.exposure_stops);
+    [[nodiscard]] Result<Observer> load_observer(const std::string& name) const {
+        if (!is_table_path(name))
+            return find_observer(name);
+        OSIO_TRY(const std::string csv, m_load_text(name));
+        return camera_from_csv(csv, name);
+    }
+
+    Result<void> decide_basis() {
+        OSIO_TRY(m_plan.basis, choose_basis(m_plan.request.basis, m_set, m_distinct.grid, m_metadata));
+        if (m_plan.basis.warning)
+            m_plan.warnings.push_back(*m_plan.basis.warning);
+        m_plan.quadrature = quadrature_for(m_plan.basis.basis, m_distinct.grid.wavelengths_nm);
+        return {};
+    }
+
+    /// The white that adaptation starts from.
+    Result<void> choose_white() {
+        if (is_unadapted(m_plan.space.kind))
+            return {};
         Vector3 white = kD65.xyz();  // radiance counts as D65-referred
+        if (m_plan.display)          // but a display shows its very colour
+            white = m_plan.display->xyz_from_rgb(m_plan.observer) * Vector3{1, 1, 1};
         if (m_plan.illuminant) {
             OSIO_TRY(white, white_point(*m_plan.illuminant, m_plan.observer, m_plan.quadrature));
         }
@@ -165,83 +148,131 @@ class PlanMaker {
             OSIO_TRY(white,
                      parse_white(m_plan.request.white, m_plan.observer, m_plan.quadrature, m_load_text));
         }
-        m_output_from_xyz = Matrix3::diagonal({gain, gain, gain});
-        if (m_plan.space.kind == SpaceKind::Xyz)
-            return {};
         m_plan.adapted_from = white;
-        const bool rgb = m_plan.space.kind == SpaceKind::Rgb;
-        const Vector3 target = (rgb ? m_plan.space.white : kD65).xyz();
-        m_output_from_xyz = m_output_from_xyz * bradford_adaptation(white, target);
-        if (rgb)
-            m_output_from_xyz = inverse(xyz_from_rgb(m_plan.space)) * m_output_from_xyz;
         return {};
     }
 
-    void weigh_bands() {
-        const auto& y = m_plan.observer.curves[1];
-        const double k = 1 / integral(m_light, y, m_plan.quadrature);
-        std::array<std::vector<double>, 3> xyz;
-        for (std::size_t c = 0; c < 3; ++c)
-            xyz[c] = linear_basis_integrals(m_distinct.wavelengths_nm, m_light, m_plan.observer.curves[c],
-                                            m_plan.request.extrapolation, m_plan.quadrature);
-        m_plan.weights = WeightMatrix(3, m_plan.bands.size());
+    /// outputs = m_output_from_curves x the three integrals with the observer's curves.
+    Result<void> choose_matrix() {
+        OSIO_TRY(const Vector3 k, normalisation());
+        const double gain = std::exp2(m_plan.request.exposure_stops);
+        const Matrix3 scaled = Matrix3::diagonal({gain * k[0], gain * k[1], gain * k[2]});
+        const OutputSpace& space = m_plan.space;
+        switch (space.kind) {
+        case SpaceKind::Xyz:
+        case SpaceKind::Camera: m_output_from_curves = scaled; break;
+        case SpaceKind::Luminance: m_output_from_curves.rows[0] = scaled.rows[1]; break;
+        case SpaceKind::XyzD65: m_output_from_curves = adapted_to(kD65.xyz()) * scaled; break;
+        case SpaceKind::Rgb:
+            m_output_from_curves = inverse(xyz_from_rgb(space)) * adapted_to(space.white.xyz()) * scaled;
+            break;
+        case SpaceKind::Display: {
+            const Matrix3 xyz_from_display = m_plan.display->xyz_from_rgb(m_plan.observer);
+            m_plan.space = described_by(xyz_from_display, space);
+            m_output_from_curves =
+                inverse(xyz_from_display) * adapted_to(xyz_from_display * Vector3{1, 1, 1}) * scaled;
+            break;
+        }
+        }
+        return {};
+    }
+
+    [[nodiscard]] Matrix3 adapted_to(const Vector3& white) const {
+        return bradford_adaptation(*m_plan.adapted_from, white);
+    }
+
+    /// What each integral is multiplied by.
+    [[nodiscard]] Result<Vector3> normalisation() const {
+        const Observer& observer = m_plan.observer;
+        if (m_plan.request.scale == Scale::Integral)
+            return Vector3{1, 1, 1};
+        if (m_plan.request.scale == Scale::Photometric) {
+            const double efficacy =
+                observer.id == "scotopic" ? kScotopicEfficacyLmPerW : kPhotopicEfficacyLmPerW;
+            return Vector3{efficacy, efficacy, efficacy};
+        }
+        const NmSamples& light = m_plan.request.filter_normalise ? m_filtered : m_light;
+        const double power = std::accumulate(light.begin(), light.end(), 0.0);
+        const bool camera = observer.kind == ObserverKind::Camera;
+        Vector3 out{};
+        for (std::size_t c = 0; c < out.size(); ++c) {
+            const double sum = integral(light, observer.curves[camera ? c : 1], m_plan.quadrature);
+            if (!(sum > kSmallestSeenShare * power))
+                return fail(ErrorCode::InvalidGrid,
+                            "the light has nothing that " + observer.id +
+                                " sees (the sum of its power times " + (camera ? "a sensitivity" : "y-bar") +
+                                " is " + format_double(sum) + "), so nothing can be normalised by it",
+                            m_plan.illuminant ? m_plan.illuminant->id : std::string());
+            out[c] = 1 / sum;
+        }
+        return out;
+    }
+
+    Result<void> weigh_bands() {
+        std::array<std::vector<double>, 3> integrals;
+        for (std::size_t c = 0; c < 3; ++c) {
+            integrals[c] =
+                band_integrals(m_plan.basis.basis, m_distinct.grid, m_filtered, m_plan.observer.curves[c],
+                               m_plan.request.extrapolation, m_plan.quadrature);
+            if (integrals[c].empty())
+                return fail(ErrorCode::InvalidGrid,
+                            "the responses of the bands do not tell them apart; use basis=linear");
+        }
+        m_plan.weights = WeightMatrix(m_plan.outputs.size(), m_plan.bands.size());
         for (std::size_t band = 0; band < m_plan.bands.size(); ++band) {
             const std::size_t i = m_distinct.index_of_band[band];
             // Bands that share a wavelength share its weight: the collapse takes their mean.
-            const double scale = k / static_cast<double>(m_distinct.bands_at[i]);
+            const double share = 1 / static_cast<double>(m_distinct.bands_at[i]);
             const Vector3 out =
-                m_output_from_xyz * Vector3{scale * xyz[0][i], scale * xyz[1][i], scale * xyz[2][i]};
-            for (std::size_t row = 0; row < 3; ++row)
+                m_output_from_curves *
+                Vector3{share * integrals[0][i], share * integrals[1][i], share * integrals[2][i]};
+            for (std::size_t row = 0; row < m_plan.weights.rows(); ++row)
                 m_plan.weights.at(row, band) = out[row];
         }
+        return {};
     }
 
     /// Share of an output's absolute weight, wavelength by wavelength, that lies beyond the bands.
     void measure_extrapolation() {
-        const double first = m_distinct.wavelengths_nm.front();
-        const double last = m_distinct.wavelengths_nm.back();
+        const auto [first, last] = covered();
         Vector3 outside{}, all{};
         for (std::size_t i = 0; i < kObserverSampleCount; ++i) {
             const double nm = kObserverFirstNm + static_cast<double>(i);
             const auto& c = m_plan.observer.curves;
             const Vector3 weight =
-                m_output_from_xyz * Vector3{m_light[i] * c[0][i], m_light[i] * c[1][i], m_light[i] * c[2][i]};
+                m_output_from_curves *
+                Vector3{m_filtered[i] * c[0][i], m_filtered[i] * c[1][i], m_filtered[i] * c[2][i]};
             for (std::size_t row = 0; row < 3; ++row) {
                 all[row] += std::abs(weight[row]);
                 if (nm < first || nm > last)
                     outside[row] += std::abs(weight[row]);
             }
         }
-        for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t row = 0; row < m_plan.outputs.size(); ++row)
             m_plan.extrapolated_share.push_back(all[row] > 0 ? outside[row] / all[row] : 0);
-        warn_of_extrapolation(std::max(0.0, first - kObserverFirstNm), std::max(0.0, kObserverLastNm - last));
+        if (auto warning = extrapolation_warning(m_plan, first, last))
+            m_plan.warnings.push_back(std::move(*warning));
     }
 
-    void warn_of_extrapolation(double below_nm, double above_nm) {
-        if (below_nm + above_nm <= 0)
-            return;
-        const auto& share = m_plan.extrapolated_share;
-        const double largest = *std::max_element(share.begin(), share.end());
-        std::string text = format_double(below_nm) + " nm below and " + format_double(above_nm) +
-                           " nm above the bands are extrapolated (" +
-                           std::string(extrapolation_name(m_plan.request.extrapolation)) + "): ";
-        if (largest == 0) {
-            text += "no output has weight there";
-        } else if (largest <= kExtrapolationWarning) {
-            text += "at most " + format_fixed(std::ceil(1e4 * largest) / 100, 2) + " % of an output's weight";
-        } else {
-            text += "much of the weight rests on it,";
-            for (std::size_t row = 0; row < share.size(); ++row)
-                text += " " + m_plan.outputs[row] + " " + format_fixed(100 * share[row], 1) + " %";
-        }
-        m_plan.warnings.push_back(text);
+    /// The wavelengths that the bands say something about.
+    [[nodiscard]] std::pair<double, double> covered() const {
+        const BandGrid& grid = m_distinct.grid;
+        const bool binned = is_binned(m_plan.basis.basis) && grid.size() > 1;
+        const auto ends =
+            binned && m_plan.basis.basis != Basis::Response ? grid.edges() : grid.wavelengths_nm;
+        return {ends.front(), ends.back()};
     }
 
     void name_it() {
         Fingerprint id;
-        id.add(recipe_text(m_plan.request)).add(m_plan.observer.sha256);
+        id.add(recipe_text(m_plan.request)).add(m_plan.observer.digest);
+        id.add(basis_name(m_plan.basis.basis));
         if (m_plan.illuminant)
             id.add(m_plan.illuminant->digest);
+        for (const Filter& filter : m_plan.filters)
+            id.add(filter.digest);
+        if (m_plan.display)
+            id.add(m_plan.display->digest);
         for (const Band& band : m_plan.bands)
             id.add(band.wavelength_nm);
         for (std::size_t row = 0; row < m_plan.weights.rows(); ++row)
@@ -251,11 +282,13 @@ class PlanMaker {
     }
 
     const SpectralSet& m_set;
+    const SpectralMetadata& m_metadata;
     const TextLoader& m_load_text;
     CollapsePlan m_plan;
     DistinctBands m_distinct;
-    NmSamples m_light{};
-    Matrix3 m_output_from_xyz;
+    NmSamples m_light{};     ///< what the samples are multiplied by, without filters
+    NmSamples m_filtered{};  ///< with them
+    Matrix3 m_output_from_curves;
 };
 
 }  // namespace
@@ -268,14 +301,21 @@ std::vector<double> CollapsePlan::wavelengths_nm() const {
 }
 
 std::vector<std::string> CollapsePlan::channel_names() const {
+    if (space.kind == SpaceKind::Luminance)
+        return {"Y"};
     if (request.names == OutputNames::Xyz)
         return {"X", "Y", "Z"};
     return {"R", "G", "B"};
 }
 
+Result<CollapsePlan> make_plan(const SpectralSet& set, const SpectralMetadata& metadata,
+                               const CollapseRequest& request, const TextLoader& load_text) {
+    return PlanMaker(set, metadata, request, load_text).make();
+}
+
 Result<CollapsePlan> make_plan(const SpectralSet& set, const CollapseRequest& request,
                                const TextLoader& load_text) {
-    return PlanMaker(set, request, load_text).make();
+    return make_plan(set, {}, request, load_text);
 }
 
 }  // namespace osio

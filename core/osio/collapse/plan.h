@@ -2,11 +2,15 @@
 #pragma once
 
 #include <osio/base/result.h>
+#include <osio/collapse/basis_choice.h>
 #include <osio/collapse/request.h>
 #include <osio/collapse/weights.h>
+#include <osio/colour/display.h>
+#include <osio/colour/filter.h>
 #include <osio/colour/illuminant.h>
 #include <osio/colour/observer.h>
 #include <osio/layout/channel_layout.h>
+#include <osio/layout/spectral_metadata.h>
 
 #include <functional>
 #include <optional>
@@ -25,11 +29,14 @@ using TextLoader = std::function<Result<std::string>(std::string_view path)>;
 struct CollapsePlan {
     CollapseRequest request;  ///< with the set that was chosen
     OutputSpace space;
-    std::vector<std::string> outputs;  ///< what the rows are: X, Y, Z or R, G, B
+    std::vector<std::string> outputs;  ///< what the rows are: X, Y, Z; R, G, B; or Y alone
     std::vector<Band> bands;           ///< by wavelength
     WeightMatrix weights;              ///< outputs x bands, linear; the space's curve comes after
     Observer observer;
     std::optional<Illuminant> illuminant;
+    std::vector<Filter> filters;
+    std::optional<Display> display;
+    BasisChoice basis;
     Quadrature quadrature = Quadrature::Sum1nm;
     std::optional<Vector3> adapted_from;     ///< XYZ of the white that adaptation starts from, Y = 1
     std::vector<double> extrapolated_share;  ///< for each output, share of weight beyond the bands
@@ -41,16 +48,25 @@ struct CollapsePlan {
     [[nodiscard]] std::vector<std::string> channel_names() const;
 };
 
-/// Builds the weights of CIE 15:2018, 7.1 for one set.
+/// Builds the weights of CIE 15:2018, 7.1 for one set, with the basis that choose_basis decides.
 ///
 /// Reflectance: X = k sum R S x, k = 1 / sum S y over 360-830 nm whatever the bands cover, so that
-/// the perfect diffuser has Y = 1. Radiance: divided by sum y, so that flat 1 has Y = 1. Spaces
-/// other than xyz are adapted by Bradford from the light's computed white (radiance: from D65,
-/// that is not at all for D65 spaces), or from the request's `white`.
+/// the perfect diffuser has Y = 1. Radiance: divided by sum y, so that flat 1 has Y = 1. Filters multiply
+/// S (or stand before the radiance) but not k, unless the request normalises them. Scale::Photometric
+/// takes k = 683 lm/W (scotopic: 1700), Scale::Integral k = 1.
+///
+/// RGB spaces are adapted by Bradford from the light's computed white without its filters (radiance: from
+/// D65, that is not at all for D65 spaces), or from the request's `white`; a display likewise to its own
+/// white, but from it for radiance, whose very colour it then shows. A camera's channels are each divided by their sum over the light, so that the perfect diffuser
+/// is (1, 1, 1), unless the scale is Integral. xyz, luminance and camera are not adapted.
 ///
 /// Refuses, before a pixel is read: a reflectance without an illuminant, a radiance with one, bands
-/// wholly outside 360-830 nm, one band with extrapolation zero (a curve of no width), names that do
-/// not fit the space. What is only doubtful becomes a warning.
+/// wholly outside 360-830 nm, one band with extrapolation zero (a curve of no width), a basis that the
+/// bands cannot have, words that contradict one another. What is only doubtful becomes a warning.
+[[nodiscard]] Result<CollapsePlan> make_plan(const SpectralSet& set, const SpectralMetadata& metadata,
+                                             const CollapseRequest& request, const TextLoader& load_text);
+
+/// The same for bands of which no header says anything.
 [[nodiscard]] Result<CollapsePlan> make_plan(const SpectralSet& set, const CollapseRequest& request,
                                              const TextLoader& load_text);
 

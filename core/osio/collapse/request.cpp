@@ -3,6 +3,7 @@
 #include <osio/collapse/request.h>
 #include <osio/colour/observer.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
@@ -16,18 +17,23 @@ constexpr double kMostStops = 100;
 
 constexpr std::string_view kRaw = "raw";
 
-constexpr std::array<RequestOption, 10> kOptions{{
+constexpr auto kOptions = std::to_array<RequestOption>({
     {"to", "SPACE", "space to collapse to (list spaces); raw: the bands themselves"},
-    {"illuminant", "NAME|FILE.csv", "light on a reflectance (list illuminants)"},
-    {"observer", "NAME", "standard observer (list observers); default cie1931"},
+    {"illuminant", "NAME|FILE.csv[,...]",
+     "light on a reflectance (list illuminants); several make several results"},
+    {"filter", "FILE.csv", "transmittance in front of the light; repeatable"},
+    {"filter-normalise", "", "make the diffuser behind the filters Y = 1, instead of darker"},
+    {"observer", "NAME|FILE.csv", "observer (list observers) or a camera's sensitivities; default cie1931"},
+    {"display", "FILE.csv", "emission curves of the display of to=display"},
     {"part", "N|NAME", "part of a multi-part file, counted from 0"},
     {"set", "[ROOT.]S0..S3|T", "which bands, where a part holds several sets"},
-    {"basis", "linear", "how bands become a spectrum; default linear"},
+    {"basis", "NAME", "how bands become a spectrum (list bases); default auto"},
     {"extrapolate", "hold|zero", "the spectrum beyond the end bands; default hold"},
     {"white", "NAME|x,y", "white to adapt from; default: the light's own, D65 for radiance"},
+    {"scale", "relative|photometric|integral", "unit of the result; default relative"},
     {"exposure", "STOPS", "multiplies the result by 2^STOPS"},
     {"names", "rgb|xyz", "channel names of the result; in raw mode: layout keeps the file's"},
-}};
+});
 
 /// A choice among words.
 template <class Value, std::size_t N>
@@ -53,7 +59,21 @@ struct Words {
     }
 };
 
-constexpr Words<Basis, 1> kBases{{{{"linear", Basis::Linear}}}};
+constexpr std::array<BasisInfo, 7> kBases{{
+    {Basis::Auto, "auto", "what the file says, else what quantity, sensitivities and spacing suggest"},
+    {Basis::Linear, "linear", "samples joined by straight lines, summed at 1 nm"},
+    {Basis::Sprague, "sprague",
+     "samples joined by Sprague's quintics (CIE 167:2005); equal steps, 6 bands or more"},
+    {Basis::E2022, "e2022", "samples joined by cubics, parabolas at the ends (ASTM E2022); 3 bands or more"},
+    {Basis::Bins, "bins", "averages over bins, constant in each"},
+    {Basis::BinsCorrected, "bins-corrected",
+     "averages over bins with the slope that neighbours tell; equal steps, 3 bands or more"},
+    {Basis::Response, "response",
+     "averages under the file's own sensitivities or widths, smoothest curve through them"},
+}};
+constexpr Words<Scale, 3> kScales{
+    {{{"relative", Scale::Relative}, {"photometric", Scale::Photometric}, {"integral", Scale::Integral}}}};
+constexpr Words<bool, 2> kSwitch{{{{"1", true}, {"0", false}}}};
 constexpr Words<Extrapolation, 2> kExtrapolations{
     {{{"hold", Extrapolation::Hold}, {"zero", Extrapolation::Zero}}}};
 constexpr Words<OutputNames, 3> kNames{
@@ -78,9 +98,31 @@ Result<void> set_exposure(CollapseRequest& request, std::string_view value) {
 }
 
 Result<void> set_observer(CollapseRequest& request, std::string_view value) {
+    if (is_table_path(value)) {
+        request.observer = value;
+        return {};
+    }
     OSIO_TRY(const Observer observer, find_observer(value));
     request.observer = observer.id;
     return {};
+}
+
+Result<void> set_basis(CollapseRequest& request, std::string_view value) {
+    std::vector<std::string> known;
+    for (const BasisInfo& info : kBases)
+        known.emplace_back(info.name);
+    const auto basis = find_basis(value);
+    if (!basis)
+        return fail(ErrorCode::UnknownName,
+                    "no basis is called \"" + std::string(value) + "\"" + suggestion(value, known));
+    request.basis = *basis;
+    return {};
+}
+
+void add_filters(CollapseRequest& request, std::string_view value) {
+    for (const std::string_view path : split(value, ','))
+        if (!trim(path).empty())
+            request.filters.emplace_back(trim(path));
 }
 
 }  // namespace
@@ -97,8 +139,16 @@ Result<void> set_option(CollapseRequest& request, std::string_view key, std::str
         return set_observer(request, value);
     if (key == "exposure")
         return set_exposure(request, value);
-    if (key == "basis") {
-        OSIO_TRY(request.basis, kBases.parse(key, value));
+    if (key == "basis")
+        return set_basis(request, value);
+    if (key == "filter") {
+        add_filters(request, value);
+    } else if (key == "filter-normalise") {
+        OSIO_TRY(request.filter_normalise, kSwitch.parse(key, value));
+    } else if (key == "scale") {
+        OSIO_TRY(request.scale, kScales.parse(key, value));
+    } else if (key == "display") {
+        request.display = value;
     } else if (key == "extrapolate") {
         OSIO_TRY(request.extrapolation, kExtrapolations.parse(key, value));
     } else if (key == "names") {
@@ -128,23 +178,60 @@ std::string recipe_text(const CollapseRequest& request) {
             out += "&" + std::string(key) + "=" + std::string(value);
     };
     add("illuminant", request.illuminant);
+    add("filter", join(request.filters, ","));
+    if (request.filter_normalise)
+        add("filter-normalise", "1");
     add("observer", request.observer);
+    add("display", request.display);
     add("part", request.part);
     add("set", request.set);
     add("basis", basis_name(request.basis));
     add("extrapolate", extrapolation_name(request.extrapolation));
     add("white", request.white);
+    add("scale", scale_name(request.scale));
     add("exposure", format_double(request.exposure_stops));
     add("names", kNames.name(request.names));
     return out;
 }
 
+std::vector<CollapseRequest> split_lights(const CollapseRequest& request) {
+    std::vector<CollapseRequest> out;
+    for (const std::string_view light : split(request.illuminant, ',')) {
+        out.push_back(request);
+        out.back().illuminant = trim(light);
+    }
+    return out;
+}
+
+std::span<const BasisInfo> bases() {
+    return kBases;
+}
+
 std::string_view basis_name(Basis basis) {
-    return kBases.name(basis);
+    for (const BasisInfo& info : kBases)
+        if (info.basis == basis)
+            return info.name;
+    return {};
+}
+
+std::optional<Basis> find_basis(std::string_view name) {
+    for (const BasisInfo& info : kBases)
+        if (iequals(info.name, name))
+            return info.basis;
+    return std::nullopt;
+}
+
+std::string_view scale_name(Scale scale) {
+    return kScales.name(scale);
 }
 
 std::string_view extrapolation_name(Extrapolation extrapolation) {
     return kExtrapolations.name(extrapolation);
+}
+
+bool takes_tables(std::string_view key) {
+    constexpr std::array<std::string_view, 5> kKeys{"illuminant", "filter", "observer", "display", "white"};
+    return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
 }
 
 bool is_table_path(std::string_view name) {

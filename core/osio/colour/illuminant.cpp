@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <osio/base/fingerprint.h>
 #include <osio/base/text.h>
+#include <osio/colour/daylight.h>
 #include <osio/colour/illuminant.h>
+#include <osio/colour/planckian.h>
+#include <osio/colour/table_samples.h>
 #include <osio/data/tables.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <numeric>
+#include <optional>
 
 namespace osio {
 
@@ -18,20 +23,6 @@ constexpr std::string_view kTable = "illuminants/cie_1nm.csv";
 /// smallest value of a CIE y-bar between 360 and 830 nm is 4.5e-7.
 constexpr double kSmallestLuminousShare = 1e-9;
 
-NmSamples sampled_at_1nm(const Spectrum& spectrum) {
-    NmSamples out{};
-    for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = spectrum.linear_at(kObserverFirstNm + static_cast<double>(i));
-    return out;
-}
-
-std::string digest_of(const NmSamples& power) {
-    Fingerprint fingerprint;
-    for (const double p : power)
-        fingerprint.add(p);
-    return fingerprint.hex();
-}
-
 /// CIE 15 calls the fluorescent lamps FL1...; F1... is the older name.
 std::string canonical(std::string_view name) {
     const std::string lower = to_lower(name);
@@ -39,22 +30,82 @@ std::string canonical(std::string_view name) {
     return old_name ? "fl" + lower.substr(1) : lower;
 }
 
+/// Tables with one light each: the file's name is the light's.
+constexpr std::array<std::string_view, 2> kFolders{"illuminants/", "light_sources/"};
+constexpr std::string_view kPowerColumn = "S";
+
+Illuminant light_of(std::string_view id, std::string_view source, const NmSamples& power) {
+    return {std::string(id), std::string(source), digest_of(power), power};
+}
+
+/// Calls visit(light's name, table) for each table of one light.
+template <class Visit>
+void visit_single_tables(Visit visit) {
+    for (const std::string_view folder : kFolders)
+        for (const Table& table : embedded_tables())
+            if (table.file.starts_with(folder) && table.columns.size() == 1 &&
+                table.columns[0] == kPowerColumn) {
+                const std::string_view file = table.file.substr(folder.size());
+                visit(file.substr(0, file.rfind('.')), table);
+            }
+}
+
+/// The argument of `function(kelvin)`; nothing where the name is another.
+std::optional<std::string_view> argument_of(std::string_view function, std::string_view name) {
+    if (name.size() < function.size() + 2 || !iequals(name.substr(0, function.size()), function) ||
+        name[function.size()] != '(' || name.back() != ')')
+        return std::nullopt;
+    return trim(name.substr(function.size() + 1, name.size() - function.size() - 2));
+}
+
+Result<double> parse_kelvin(std::string_view text, std::string_view name) {
+    const auto kelvin = iequals(text, "inf") ? std::numeric_limits<double>::infinity() : parse_double(text);
+    if (!kelvin || *kelvin <= 0)
+        return fail(ErrorCode::Usage, "\"" + std::string(name) + "\": found \"" + std::string(text) +
+                                          "\", expected a temperature in kelvin above 0, such as 3200");
+    return *kelvin;
+}
+
+Result<std::optional<Illuminant>> light_by_formula(std::string_view name) {
+    if (const auto text = argument_of("D", name)) {
+        OSIO_TRY(const double kelvin, parse_kelvin(*text, name));
+        OSIO_TRY(const NmSamples power, daylight_power(kelvin));
+        return light_of(
+            "D(" + format_double(kelvin) + ")",
+            "CIE daylight, S0 + M1 S1 + M2 S2 with M1, M2 rounded to 3 decimals (CIE 15:2018, 4.1.2)", power);
+    }
+    if (const auto text = argument_of("blackbody", name)) {
+        OSIO_TRY(const double kelvin, parse_kelvin(*text, name));
+        const bool limit = std::isinf(kelvin);
+        return light_of("blackbody(" + (limit ? "inf" : format_double(kelvin)) + ")",
+                        limit ? "limit of Rayleigh and Jeans, lambda^-4"
+                              : "Planck's law, c2 = 1.438776877e7 nm K (CODATA 2018)",
+                        blackbody_power(kelvin));
+    }
+    return std::nullopt;
+}
+
 }  // namespace
 
 Result<Illuminant> find_illuminant(std::string_view name) {
+    OSIO_TRY(std::optional<Illuminant> light, light_by_formula(name));
+    if (light)
+        return std::move(*light);
     const Table& table = *find_table(kTable);
     const auto column = std::find_if(table.columns.begin(), table.columns.end(),
                                      [&](std::string_view c) { return to_lower(c) == canonical(name); });
-    if (column == table.columns.end())
-        return fail(ErrorCode::UnknownName,
-                    "no illuminant is called \"" + std::string(name) + "\"" +
-                        suggestion(name, illuminant_names()) +
-                        " (a table of your own is named by its path and ends in .csv)");
-    const auto index = static_cast<std::size_t>(column - table.columns.begin());
-    Illuminant out{
-        std::string(*column), std::string(table.sources[index]), {}, sampled_at_1nm(*table.column(*column))};
-    out.digest = digest_of(out.power);
-    return out;
+    if (column != table.columns.end())
+        return light_of(*column, table.sources[static_cast<std::size_t>(column - table.columns.begin())],
+                        sampled_at_1nm(*table.column(*column)));
+    visit_single_tables([&](std::string_view id, const Table& single) {
+        if (iequals(id, name))
+            light = light_of(id, single.sources[0], sampled_at_1nm(*single.column(kPowerColumn)));
+    });
+    if (light)
+        return std::move(*light);
+    return fail(ErrorCode::UnknownName, "no illuminant is called \"" + std::string(name) + "\"" +
+                                            suggestion(name, illuminant_names()) +
+                                            " (a table of your own is named by its path and ends in .csv)");
 }
 
 Result<Illuminant> illuminant_from_csv(std::string_view csv, std::string_view path) {
@@ -68,20 +119,16 @@ Result<Illuminant> illuminant_from_csv(std::string_view csv, std::string_view pa
                             format_double(spectrum->wavelengths_nm[i]) +
                             " nm is negative; a light has none below zero",
                         std::string(path));
-    Illuminant out{std::string(path), "table " + std::string(path), {}, sampled_at_1nm(*spectrum)};
-    if (std::all_of(out.power.begin(), out.power.end(), [](double p) { return p == 0; }))
-        return fail(ErrorCode::Usage,
-                    "no power at any whole nanometre of 360-830 nm (the table covers " +
-                        format_double(spectrum->wavelengths_nm.front()) + "-" +
-                        format_double(spectrum->wavelengths_nm.back()) + " nm)",
-                    std::string(path));
-    out.digest = digest_of(out.power);
-    return out;
+    const NmSamples power = sampled_at_1nm(*spectrum);
+    OSIO_CHECK_OK(check_not_black(power, *spectrum, "power", path));
+    return light_of(path, "table " + std::string(path), power);
 }
 
 std::vector<std::string> illuminant_names() {
     const Table& table = *find_table(kTable);
-    return {table.columns.begin(), table.columns.end()};
+    std::vector<std::string> names(table.columns.begin(), table.columns.end());
+    visit_single_tables([&](std::string_view id, const Table&) { names.emplace_back(id); });
+    return names;
 }
 
 Result<Vector3> white_point(const Illuminant& light, const Observer& observer, Quadrature quadrature) {

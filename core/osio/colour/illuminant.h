@@ -21,15 +21,16 @@ struct Illuminant {
     NmSamples power{};
 };
 
-/// The light of that name (case ignored): "D65", "A", "FL11", ...; F2 is read as FL2. UnknownName
-/// names the nearest.
+/// The light of that name (case ignored): a table ("D65", "A", "FL11", "HPS", ...; F2 is read as FL2),
+/// or a formula: "D(6200)", CIE daylight (see daylight_power), and "blackbody(3200)" (see
+/// blackbody_power), in kelvin. UnknownName names the nearest; Usage where a formula is not defined.
 [[nodiscard]] Result<Illuminant> find_illuminant(std::string_view name);
 
 /// A light from a user's table (see parse_spectrum_csv): straight lines at 1 nm, zero outside it.
 /// Negative power and a table without power inside 360-830 nm are refused.
 [[nodiscard]] Result<Illuminant> illuminant_from_csv(std::string_view csv, std::string_view path);
 
-/// Every name that find_illuminant knows.
+/// Every table that find_illuminant knows by name.
 [[nodiscard]] std::vector<std::string> illuminant_names();
 
 /// Tristimulus values of the perfect diffuser under `light`, Y = 1, over 360-830 nm. InvalidGrid

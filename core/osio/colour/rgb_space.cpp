@@ -14,10 +14,13 @@ constexpr Chromaticity kX{1, 0}, kY{0, 1}, kZ{0, 0}, kEqualEnergy{1.0 / 3.0, 1.0
 /// Primaries: ITU-R BT.709-6 and IEC 61966-2-1; SMPTE RP 431-2 with D65; ITU-R BT.2020-2;
 /// ACES AP1 (S-2014-004) and AP0 (SMPTE ST 2065-1). Names and aliases are those of the official
 /// OCIO configs for ACES, which have them since OCIO 2.1.
-constexpr std::array<OutputSpace, 8> kSpaces{{
+constexpr std::array<OutputSpace, 11> kSpaces{{
     {"xyz", "", "", SpaceKind::Xyz, Transfer::Linear, kX, kY, kZ, kEqualEnergy},
     {"xyz_d65", "lin_ciexyzd65_scene|cie_xyz_d65_scene|CIE XYZ-D65 - Scene-referred", "lin_ciexyzd65_scene",
      SpaceKind::XyzD65, Transfer::Linear, kX, kY, kZ, kEqualEnergy},
+    {"luminance", "", "", SpaceKind::Luminance, Transfer::Linear, {}, {}, {}, {}},
+    {"camera", "", "", SpaceKind::Camera, Transfer::Linear, {}, {}, {}, {}},
+    {"display", "", "", SpaceKind::Display, Transfer::Linear, {}, {}, {}, {}},
     {"lin_rec709",
      "lin_rec709_scene|lin_rec709_srgb|lin_srgb|Linear Rec.709 (sRGB)",
      "lin_rec709",

@@ -30,10 +30,29 @@ inline constexpr Chromaticity kAcesWhite{0.32168, 0.33767};
 
 /// What a pixel's three numbers mean.
 enum class SpaceKind {
-    Xyz,     ///< tristimulus values under the light itself, not adapted
-    XyzD65,  ///< tristimulus values adapted to D65
-    Rgb,     ///< red, green, blue of given primaries
+    Xyz,        ///< tristimulus values under the light itself, not adapted
+    XyzD65,     ///< tristimulus values adapted to D65
+    Rgb,        ///< red, green, blue of given primaries
+    Luminance,  ///< Y alone
+    Camera,     ///< a camera's own red, green, blue
+    Display,    ///< red, green, blue that a measured display needs to show the colour
 };
+
+/// True for the spaces whose numbers are red, green and blue.
+[[nodiscard]] constexpr bool is_rgb(SpaceKind kind) {
+    return kind == SpaceKind::Rgb || kind == SpaceKind::Camera || kind == SpaceKind::Display;
+}
+
+/// True for the spaces that are not adapted to a white of their own.
+[[nodiscard]] constexpr bool is_unadapted(SpaceKind kind) {
+    return kind == SpaceKind::Xyz || kind == SpaceKind::Luminance || kind == SpaceKind::Camera;
+}
+
+/// True where the space's primaries and white say what its numbers are. Those of Display come from the
+/// display's table.
+[[nodiscard]] constexpr bool has_primaries(SpaceKind kind) {
+    return kind != SpaceKind::Luminance && kind != SpaceKind::Camera;
+}
 
 /// Curve from linear to stored value.
 enum class Transfer {

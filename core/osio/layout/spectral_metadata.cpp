@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <osio/base/text.h>
 #include <osio/layout/spectral_metadata.h>
 
 #include <algorithm>
@@ -22,6 +23,9 @@ class Reader {
         m_out.handedness = text(attribute::kHandedness);
         m_out.lens_transmission = spectrum(attribute::kLensTransmission);
         m_out.camera_response = spectrum(attribute::kCameraResponse);
+        m_out.basis = text(attribute::kBasis);
+        m_out.bin_edges_nm = bin_edges();
+        m_out.fwhm = fwhm();
         for (const SpectralSet& set : m_layout.sets)
             for (const Band& band : set.bands)
                 if (auto curve = spectrum(m_layout.channel_names[band.channel]))
@@ -50,6 +54,39 @@ class Reader {
                                      " pieces are no wavelength:value, the first is \"" +
                                      parsed.rejected.front().substr(0, 40) + "\"");
         return std::move(parsed.spectrum);
+    }
+
+    std::vector<double> bin_edges() {
+        const auto value = text(attribute::kBinEdges);
+        if (!value)
+            return {};
+        std::vector<double> out;
+        for (const std::string_view piece : split(*value, ';')) {
+            const auto nm = parse_double(trim(piece));
+            if (!nm || (!out.empty() && *nm <= out.back())) {
+                m_out.warnings.push_back(
+                    "spectral:binEdges is \"" + value->substr(0, 40) +
+                    "\", expected increasing wavelengths in nm between semicolons: ignored");
+                return {};
+            }
+            out.push_back(*nm);
+        }
+        return out;
+    }
+
+    std::optional<Spectrum> fwhm() {
+        const auto value = text(attribute::kFwhm);
+        if (!value)
+            return std::nullopt;
+        auto curve = parse_double(trim(*value)) ? Spectrum{{kObserverFirstNm}, {*parse_double(trim(*value))}}
+                                                : parse_spectrum_text(*value).spectrum;
+        const bool positive =
+            std::all_of(curve.values.begin(), curve.values.end(), [](double width) { return width > 0; });
+        if (!curve.values.empty() && positive)
+            return curve;
+        m_out.warnings.push_back("spectral:fwhm is \"" + value->substr(0, 40) +
+                                 "\", expected a width in nm or wavelength:width;...: ignored");
+        return std::nullopt;
     }
 
     [[nodiscard]] bool has_family(Family family) const {

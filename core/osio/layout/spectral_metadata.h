@@ -20,6 +20,11 @@ inline constexpr std::string_view kHandedness = "polarisationHandedness";
 inline constexpr std::string_view kExposureValue = "EV";
 inline constexpr std::string_view kLensTransmission = "lensTransmission";
 inline constexpr std::string_view kCameraResponse = "cameraResponse";
+// Ours: what a reader needs to know to make a curve of the bands.
+inline constexpr std::string_view kBasis = "spectral:basis";  ///< a word of `list bases`
+inline constexpr std::string_view kBinEdges =
+    "spectral:binEdges";                                    ///< bands + 1 wavelengths in nm, between ';'
+inline constexpr std::string_view kFwhm = "spectral:fwhm";  ///< nm: one number, or `wavelength:width;...`
 }  // namespace attribute
 
 /// The layout's version that is written, and the unit of emitted light in its spelling. The unit is
@@ -38,6 +43,9 @@ struct SpectralMetadata {
     std::optional<Spectrum> lens_transmission;
     std::optional<Spectrum> camera_response;
     std::map<std::size_t, Spectrum> sensitivities;  ///< by channel index
+    std::optional<std::string> basis;
+    std::vector<double> bin_edges_nm;  ///< strictly increasing, or none
+    std::optional<Spectrum> fwhm;      ///< full widths at half maximum, nm, over wavelength
     std::vector<std::string> warnings;
 };
 

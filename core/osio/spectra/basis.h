@@ -19,7 +19,13 @@ using NmSamples = std::array<double, kObserverSampleCount>;
 
 /// Which phi_i.
 enum class Basis {
-    Linear,  ///< straight lines between neighbouring bands
+    Auto,           ///< what the file says and the bands suggest: see choose_basis
+    Linear,         ///< samples joined by straight lines
+    Sprague,        ///< samples joined by Sprague's quintics (CIE 167:2005)
+    E2022,          ///< samples joined by cubics, parabolas at the ends (ASTM E2022)
+    Bins,           ///< averages over bins, constant in each
+    BinsCorrected,  ///< averages over equal bins, with the slope that the neighbours tell
+    Response,       ///< averages weighted by each band's own response, the smoothest curve through them
 };
 
 /// What the spectrum is beyond the first and the last band.
@@ -42,7 +48,8 @@ enum class Quadrature {
 [[nodiscard]] double integral(const NmSamples& a, const NmSamples& b, Quadrature quadrature);
 
 /// Integral of a(lambda) b(lambda) phi_i(lambda) over 360-830 nm for each band of the linear basis;
-/// one number for each band. `bands_nm` must be strictly increasing and not empty.
+/// one number for each band. `bands_nm` must be strictly increasing and not empty. The other bases are
+/// in band_integrals.h.
 [[nodiscard]] std::vector<double> linear_basis_integrals(std::span<const double> bands_nm, const NmSamples& a,
                                                          const NmSamples& b, Extrapolation extrapolation,
                                                          Quadrature quadrature);

@@ -19,14 +19,27 @@ std::optional<double> parse_either_mark(std::string_view text) {
     return parse_double(pointed);
 }
 
-/// The two fields of a line, split at the first separator that occurs in it.
-std::pair<std::string_view, std::string_view> two_fields(std::string_view line) {
-    for (const char separator : {';', '\t', ',', ' '}) {
-        const auto at = line.find(separator);
-        if (at != std::string_view::npos)
-            return {trim(line.substr(0, at)), trim(line.substr(at + 1))};
-    }
-    return {line, {}};
+/// The fields of a line: at the first kind of separator that occurs in it; runs of spaces count as one.
+std::vector<std::string_view> fields_of(std::string_view line) {
+    char separator = 0;
+    for (const char candidate : {';', '\t', ',', ' '})
+        if (separator == 0 && line.find(candidate) != std::string_view::npos)
+            separator = candidate;
+    if (separator == 0)
+        return {line};
+    std::vector<std::string_view> out;
+    for (const std::string_view field : split(line, separator))
+        if (separator != ' ' || !field.empty())
+            out.push_back(trim(field));
+    return out;
+}
+
+/// The numbers of a line's fields; nothing for those that are none.
+std::vector<std::optional<double>> numbers_of(const std::vector<std::string_view>& fields) {
+    std::vector<std::optional<double>> out;
+    for (const std::string_view field : fields)
+        out.push_back(parse_double(field));
+    return out;
 }
 
 tl::unexpected<Error> bad_line(std::size_t number, std::string what) {
@@ -47,6 +60,10 @@ double Spectrum::linear_at(double wavelength_nm) const {
     const double lo = wavelengths_nm[i - 1];
     const double t = (wavelength_nm - lo) / (*above - lo);
     return values[i - 1] + t * (values[i] - values[i - 1]);
+}
+
+double Spectrum::held_at(double wavelength_nm) const {
+    return linear_at(std::clamp(wavelength_nm, wavelengths_nm.front(), wavelengths_nm.back()));
 }
 
 SpectrumText parse_spectrum_text(std::string_view text) {
@@ -76,11 +93,17 @@ SpectrumText parse_spectrum_text(std::string_view text) {
 }
 
 Result<Spectrum> parse_spectrum_csv(std::string_view text) {
+    OSIO_TRY(std::vector<Spectrum> curves, parse_curves_csv(text, 1));
+    return std::move(curves.front());
+}
+
+Result<std::vector<Spectrum>> parse_curves_csv(std::string_view text, std::size_t count) {
     constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
     if (text.starts_with(kByteOrderMark))
         text.remove_prefix(kByteOrderMark.size());
 
-    Spectrum out;
+    std::vector<double> wavelengths_nm;
+    std::vector<std::vector<double>> values(count);
     bool header_allowed = true;
     std::size_t number = 0;
     for (const std::string_view raw : split(text, '\n')) {
@@ -88,30 +111,37 @@ Result<Spectrum> parse_spectrum_csv(std::string_view text) {
         const std::string_view line = trim(raw);
         if (line.empty() || line.starts_with('#'))
             continue;
-        const auto [first, second] = two_fields(line);
-        const auto nm = parse_double(first);
-        const auto value = parse_double(second);
-        const bool header = header_allowed && !nm && !value;
+        const auto fields = numbers_of(fields_of(line));
+        const auto is_number = [](const std::optional<double>& field) { return field.has_value(); };
+        const bool header = header_allowed && std::none_of(fields.begin(), fields.end(), is_number);
         header_allowed = false;
         if (header)
             continue;
-        if (!nm || !value)
-            return bad_line(number, "found \"" + std::string(line.substr(0, 60)) +
-                                        "\", expected two numbers: wavelength in nm, value");
-        if (*nm <= 0)
-            return bad_line(number, "a wavelength of " + format_double(*nm) + " nm is not positive");
-        if (!out.wavelengths_nm.empty() && *nm <= out.wavelengths_nm.back())
-            return bad_line(number, format_double(*nm) + " nm follows " +
-                                        format_double(out.wavelengths_nm.back()) +
+        if (fields.size() != count + 1 || !std::all_of(fields.begin(), fields.end(), is_number))
+            return bad_line(number, "found \"" + std::string(line.substr(0, 60)) + "\", expected " +
+                                        (count == 1 ? "two numbers: wavelength in nm, value"
+                                                    : std::to_string(count + 1) +
+                                                          " numbers: wavelength in nm, then " +
+                                                          std::to_string(count) + " values"));
+        const double nm = *fields[0];
+        if (nm <= 0)
+            return bad_line(number, "a wavelength of " + format_double(nm) + " nm is not positive");
+        if (!wavelengths_nm.empty() && nm <= wavelengths_nm.back())
+            return bad_line(number, format_double(nm) + " nm follows " +
+                                        format_double(wavelengths_nm.back()) +
                                         " nm; wavelengths must increase from line to line");
-        out.wavelengths_nm.push_back(*nm);
-        out.values.push_back(*value);
+        wavelengths_nm.push_back(nm);
+        for (std::size_t c = 0; c < count; ++c)
+            values[c].push_back(*fields[c + 1]);
     }
-    if (out.wavelengths_nm.empty())
+    if (wavelengths_nm.empty())
         return fail(ErrorCode::Usage, "no line with a wavelength in nm and a value");
-    if (out.wavelengths_nm.back() < kSmallestPlausibleLastNm)
-        return fail(ErrorCode::Usage, "the wavelengths end at " + format_double(out.wavelengths_nm.back()) +
+    if (wavelengths_nm.back() < kSmallestPlausibleLastNm)
+        return fail(ErrorCode::Usage, "the wavelengths end at " + format_double(wavelengths_nm.back()) +
                                           ": these look like micrometres; nanometres are expected");
+    std::vector<Spectrum> out;
+    for (std::vector<double>& column : values)
+        out.push_back({wavelengths_nm, std::move(column)});
     return out;
 }
 

@@ -17,6 +17,9 @@ struct Spectrum {
 
     /// The value at `wavelength_nm`; zero outside the first and last sample.
     [[nodiscard]] double linear_at(double wavelength_nm) const;
+
+    /// The value at `wavelength_nm`; the end values outside. Not for an empty curve.
+    [[nodiscard]] double held_at(double wavelength_nm) const;
 };
 
 /// A spectrum from a header attribute of the spectral EXR layout, and what had to be passed over.
@@ -35,5 +38,8 @@ struct SpectrumText {
 /// decimal point, lines starting with `#` and one header line optional. Wavelengths must be
 /// positive, strictly increasing and in nanometres, values finite. The error names the line.
 [[nodiscard]] Result<Spectrum> parse_spectrum_csv(std::string_view text);
+
+/// The same with `count` columns of values behind the wavelength: one curve for each.
+[[nodiscard]] Result<std::vector<Spectrum>> parse_curves_csv(std::string_view text, std::size_t count);
 
 }  // namespace osio

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <osio/base/result.h>
+#include <osio/collapse/request.h>
+#include <osio/layout/channel_layout.h>
+#include <osio/layout/spectral_metadata.h>
+#include <osio/spectra/band_integrals.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace osio {
+
+/// The distinct wavelengths of a set as the curves that a basis needs, and to which of them each band
+/// belongs.
+struct DistinctBands {
+    BandGrid grid;
+    std::vector<std::size_t> index_of_band;
+    std::vector<std::size_t> bands_at;  ///< how many bands share a wavelength
+};
+
+/// Bands that share a wavelength are one; of several responses at it the first counts. Edges and
+/// responses are taken over where the metadata has them for every band.
+[[nodiscard]] DistinctBands distinct_bands(const SpectralSet& set, const SpectralMetadata& metadata);
+
+/// A basis, why it was chosen, and what a user should know of the choice.
+struct BasisChoice {
+    Basis basis = Basis::Linear;
+    std::string reason;
+    std::optional<std::string> warning;
+};
+
+/// The fewest bands for which Auto corrects bins: with fewer, spectral lines make the slopes that
+/// neighbours tell wrong (docs/accuracy.md).
+inline constexpr std::size_t kFewestCorrectedBins = 13;
+
+/// Decides the basis of a request.
+///
+/// Auto obeys the attribute `spectral:basis`; else takes Response where every band has a sensitivity or
+/// a width of its own; else a reflectance for samples (Sprague on equal steps, E2022 on 3 to 5, Linear
+/// otherwise) and a radiance, which cameras and renderers average, for bins (BinsCorrected on
+/// kFewestCorrectedBins equal steps or more, Bins otherwise).
+///
+/// A basis that needs more bands than there are, and an interpolation of bands closer than 1 nm, become
+/// Linear, with a warning. InvalidGrid where the request names a basis that the bands cannot have:
+/// Sprague or BinsCorrected on unequal steps, Response without responses.
+[[nodiscard]] Result<BasisChoice> choose_basis(Basis requested, const SpectralSet& set, const BandGrid& grid,
+                                               const SpectralMetadata& metadata);
+
+}  // namespace osio

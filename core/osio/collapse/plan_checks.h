@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <osio/base/result.h>
+#include <osio/collapse/plan.h>
+#include <osio/collapse/request.h>
+#include <osio/layout/channel_layout.h>
+
+#include <optional>
+#include <string>
+#include <vector>
+
+/// What make_plan refuses, and what it warns of.
+namespace osio {
+
+/// Usage where the request's words contradict one another.
+[[nodiscard]] Result<void> check_request(const CollapseRequest& request);
+
+/// MissingIlluminant for a reflectance without a light; UnexpectedIlluminant for a radiance with one, or
+/// Usage for a reflectance in photometric units.
+[[nodiscard]] Result<void> check_quantity(const SpectralSet& set, const CollapseRequest& request);
+
+/// Usage where an observer does not give the numbers of a space.
+[[nodiscard]] Result<void> check_observer(const Observer& observer, const OutputSpace& space);
+
+/// InvalidGrid or BandsOutsideObserver where the distinct wavelengths define no curve that is seen.
+[[nodiscard]] Result<void> check_grid(const SpectralSet& set, const CollapseRequest& request,
+                                      const std::vector<double>& wavelengths_nm);
+
+/// What a user should know of the weight beyond the bands, which say something of first to last nm.
+[[nodiscard]] std::optional<std::string> extrapolation_warning(const CollapsePlan& plan, double first_nm,
+                                                               double last_nm);
+
+}  // namespace osio
