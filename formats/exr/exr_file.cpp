@@ -199,12 +199,15 @@ std::vector<std::uint64_t> ExrFile::chunk_counts() const {
     std::vector<std::uint64_t> out;
     for (std::size_t part = 0; part < m_parts.size(); ++part) {
         const Imf::Header& header = m_parts[part].header;
-        int32_t count = 0;
-        if (m_context != nullptr)
-            exr_get_chunk_count(m_context, static_cast<int>(part), &count);
-        else if (header.hasChunkCount())
-            count = header.chunkCount();
-        out.push_back(static_cast<std::uint64_t>(std::max(count, 0)));
+        std::int64_t count = 0;
+        if (int32_t told = 0; m_context != nullptr) {
+            exr_get_chunk_count(m_context, static_cast<int>(part), &told);
+            count = told;
+        } else {
+            count = header.hasChunkCount() ? header.chunkCount()
+                                           : static_cast<std::int64_t>(full_resolution_chunks(m_parts[part]));
+        }
+        out.push_back(static_cast<std::uint64_t>(std::max<std::int64_t>(count, 0)));
     }
     return out;
 }

@@ -113,7 +113,7 @@ Result<void> ExrWriter::write_rows(int row_count, std::span<const ChannelRows> c
     return {};
 }
 
-Result<void> ExrWriter::finish() {
+Result<void> ExrWriter::finish(files::Durability durability) {
     State& state = *m_state;
     if (state.rows_left != 0)
         return fail(ErrorCode::Io, std::to_string(state.rows_left) + " rows were never written",
@@ -124,7 +124,7 @@ Result<void> ExrWriter::finish() {
                     state.file.target());
     if (auto result = write_checksum(state.file.path()); !result)
         return fail_in(state.file.target(), std::move(result).error());
-    return state.file.commit();
+    return state.file.commit(durability);
 }
 
 ExrSink::ExrSink(std::unique_ptr<ExrWriter> writer, SampleType type, int width)

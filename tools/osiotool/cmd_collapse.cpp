@@ -74,6 +74,10 @@ Result<StoredType> choose_depth(const CollapseOptions& options, const OutputSpac
     return type;
 }
 
+files::Durability durability(const CollapseOptions& options) {
+    return options.fsync ? files::Durability::Stored : files::Durability::Handed;
+}
+
 /// Where the rows go, and what is known when they are there.
 struct Output {
     std::unique_ptr<RowSink> sink;
@@ -92,9 +96,9 @@ Result<Output> open_exr(const CollapseOptions& options, const exr::CollapseJob& 
     OSIO_TRY(auto writer, exr::ExrWriter::create(options.output, std::move(header), channels));
     auto sink = std::make_unique<exr::ExrSink>(std::move(writer), sample, job.part().data_window.width());
     auto* const exr = sink.get();
-    return Output{std::move(sink), [exr](CollapseOutcome& outcome) {
+    return Output{std::move(sink), [exr, durability = durability(options)](CollapseOutcome& outcome) {
                       outcome.clamped_samples = exr->clamped_count();
-                      return exr->finish();
+                      return exr->finish(durability);
                   }};
 }
 
@@ -103,7 +107,8 @@ Result<Output> open_other(const CollapseOptions& options, const exr::CollapseJob
     if (!options.compression.empty())
         return fail(ErrorCode::Usage, "--compression is for .exr output");
     OSIO_TRY(const host::HostModule* const module, load_host_module());
-    OSIO_TRY(auto sink, module->open_sink({options.output, type, job.channel_names(), &header}));
+    OSIO_TRY(auto sink,
+             module->open_sink({options.output, type, job.channel_names(), &header, durability(options)}));
     auto* const other = sink.get();
     return Output{std::move(sink), [other](CollapseOutcome& outcome) {
                       outcome.clipped_pixels = other->clipped_pixels();
