@@ -131,12 +131,13 @@ class Reference(OsioCase):
         words = ("--to", "srgb", "--illuminant", "A")
         self.names(self.keys_of(self.osiotool_json("info", "shot.exr")))
         self.names(self.keys_of(self.osiotool_json("plan", "shot.exr", *words)))
+        self.names(self.keys_of(self.osiotool_json("verify", "shot.exr")))
         self.names(self.keys_of(self.osiotool_json("collapse", "shot.exr", "o.exr", *words)))
 
     def test_every_option(self):
-        for command in ("info", "collapse", "plan"):
+        for command in ("info", "collapse", "plan", "verify"):
             text = self.osiotool(command, "--help").stdout
-            self.names(set(re.findall(r"^  --?([a-z]+)", text, re.M)) - {"h"})
+            self.names(set(re.findall(r"^  --?([a-z-]+)", text, re.M)) - {"h"})
 
     def test_every_space_and_observer(self):
         for what in ("spaces", "observers", "bases"):
