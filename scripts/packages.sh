@@ -3,13 +3,16 @@
 
 # What building and running needs.
 OSIO_PACKAGES="g++ cmake ninja-build pkg-config
-    libopenimageio-dev libopenexr-dev libimath-dev libhwy-dev
-    libcli11-dev libfmt-dev nlohmann-json3-dev libexpected-dev
+    libopenimageio-dev libopenexr-dev libimath-dev libhwy-dev libdeflate-dev
+    libcli11-dev libfmt-dev nlohmann-json3-dev libexpected-dev libxxhash-dev
     openimageio-tools fonts-dejavu-core"
 
 # What the tests drive besides.
 OSIO_TEST_PACKAGES="libgtest-dev openexr opencolorio-tools
     python3 python3-numpy python3-openimageio"
+
+# What fuzzing needs besides.
+OSIO_FUZZ_PACKAGES="clang-14 libclang-rt-14-dev"
 
 # ensure_packages NAME ...: installs those that are missing; silent where none is.
 ensure_packages() {

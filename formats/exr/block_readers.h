@@ -13,7 +13,11 @@ struct BlockJob {
     BlockGrid grid;
 };
 
-/// Through OpenEXRCore: chunk by chunk, straight into the planes, over the file's one context.
+/// ZIP and ZIPS without sub-sampled channels: chunks raw from OpenEXRCore, over the file's one context;
+/// inflated by libdeflate, put in order line by line, and copied to the planes while they are hot.
+[[nodiscard]] Result<std::unique_ptr<BlockReader>> make_zip_reader(const BlockJob& job);
+
+/// Through OpenEXRCore's own stages: chunk by chunk, straight into the planes.
 [[nodiscard]] Result<std::unique_ptr<BlockReader>> make_core_reader(const BlockJob& job);
 
 /// Through the C++ API. Each reader opens the file for itself: the API serialises reads of one file.

@@ -26,14 +26,22 @@ struct BlockGrid {
     [[nodiscard]] int row_count(std::size_t block) const;
 };
 
-/// The grid of a part, decided by its compression and tiles.
-[[nodiscard]] BlockGrid block_grid(const ExrPart& part);
+/// How many chunks of scanlines are taken together.
+enum class Grain {
+    Block,  ///< as many as are worth a worker's while
+    Chunk,  ///< one, so that a damaged one takes no others with it
+};
 
-/// Decodes channels of one part into planar blocks: through OpenEXRCore's chunk pipeline, or through
-/// the C++ API where 3.1.5's Core is slower (PIZ), lacks the codec (DWA) or is not trusted (B44).
+/// The grid of a part, decided by its compression and tiles.
+[[nodiscard]] BlockGrid block_grid(const ExrPart& part, Grain grain = Grain::Block);
+
+/// Decodes channels of one part into planar blocks: by stages of our own (ZIP, ZIPS), through
+/// OpenEXRCore's chunk pipeline (none, RLE, PXR24), or through the C++ API where 3.1.5's Core is slower
+/// (PIZ), lacks the codec (DWA) or is not trusted (B44).
 /// Planes are samples as stored. Refuses deep parts, sub-sampled channels among the wanted, and
 /// blocks beyond our limits. The source keeps the file open.
 [[nodiscard]] Result<std::unique_ptr<BlockSource>> make_block_source(std::shared_ptr<const ExrFile> file,
-                                                                     std::size_t part, PlaneChannels planes);
+                                                                     std::size_t part, PlaneChannels planes,
+                                                                     Grain grain = Grain::Block);
 
 }  // namespace osio::exr

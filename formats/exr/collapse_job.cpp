@@ -12,13 +12,22 @@ std::vector<std::string> CollapseJob::channel_names() const {
     return names;
 }
 
-Result<std::unique_ptr<BlockSource>> CollapseJob::open_source() const {
+Result<std::unique_ptr<BlockSource>> CollapseJob::open_source(Grain grain) const {
     PlaneChannels planes;
     for (std::size_t band = 0; band < plan.bands.size(); ++band)
         planes.push_back(plan.weights.needs(band) ? std::optional(plan.bands[band].channel) : std::nullopt);
     if (alpha)
         planes.emplace_back(alpha);
-    return make_block_source(file, part_index, std::move(planes));
+    return make_block_source(file, part_index, std::move(planes), grain);
+}
+
+std::vector<SampleType> CollapseJob::plane_types() const {
+    std::vector<SampleType> types;
+    for (const Band& band : plan.bands)
+        types.push_back(part().channels[band.channel].type);
+    if (alpha)
+        types.push_back(part().channels[*alpha].type);
+    return types;
 }
 
 Result<CollapseJob> open_collapse(const std::string& path, const CollapseRequest& request,

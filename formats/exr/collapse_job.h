@@ -30,7 +30,10 @@ struct CollapseJob {
     [[nodiscard]] std::vector<std::string> channel_names() const;
 
     /// The bands that the plan needs, then alpha.
-    [[nodiscard]] Result<std::unique_ptr<BlockSource>> open_source() const;
+    [[nodiscard]] Result<std::unique_ptr<BlockSource>> open_source(Grain grain = Grain::Block) const;
+
+    /// How the samples of the source's planes are stored.
+    [[nodiscard]] std::vector<SampleType> plane_types() const;
 };
 
 /// Opens the file, chooses the set and makes the plan; every refusal comes from here.

@@ -1,5 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <formats/exr/chunk_geometry.h>
+#include <formats/exr/chunk_map.h>
 #include <formats/exr/exr_file.h>
+#include <formats/exr/header_bytes.h>
+#include <formats/exr/limits.h>
 
 #include <osio/base/text.h>
 #include <osio/layout/dialect.h>
@@ -11,6 +15,7 @@
 #include <OpenEXR/openexr_base.h>
 #include <OpenEXR/openexr_part.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -67,7 +72,7 @@ Window window_of(const Imath::Box2i& box) {
 bool plausible(const Imath::Box2i& box) {
     const auto width = std::int64_t{box.max.x} - box.min.x + 1;
     const auto height = std::int64_t{box.max.y} - box.min.y + 1;
-    return width > 0 && height > 0 && width < INT32_MAX && height < INT32_MAX;
+    return width > 0 && height > 0 && width <= kMostSidePixels && height <= kMostSidePixels;
 }
 
 SampleType sample_type(Imf::PixelType type) {
@@ -98,7 +103,7 @@ TextAttributes text_attributes(const Imf::Header& header) {
     return out;
 }
 
-Result<ExrPart> understand(const Imf::Header& header) {
+Result<ExrPart> understand(const Imf::Header& header, std::uint64_t file_bytes) {
     ExrPart part;
     part.header = header;
     if (!plausible(header.dataWindow()) || !plausible(header.displayWindow()))
@@ -113,6 +118,7 @@ Result<ExrPart> understand(const Imf::Header& header) {
         return fail(ErrorCode::Damaged, std::to_string(part.channels.size()) +
                                             " channels, more than the limit of " +
                                             std::to_string(kMostChannels));
+    OSIO_CHECK_OK(check_limits(part, file_bytes));
     std::vector<std::string> names;
     for (const ExrChannel& channel : part.channels)
         names.push_back(channel.name);
@@ -146,6 +152,11 @@ ExrFile::~ExrFile() {
 Result<std::shared_ptr<const ExrFile>> ExrFile::open(const std::string& path) {
     OSIO_TRY(const std::uint64_t bytes, check_file(path));
     const std::shared_ptr<ExrFile> file(new ExrFile(path));
+    OSIO_TRY(RawFile raw, RawFile::open(path));
+    std::string header_bytes;
+    const auto headers = read_raw_headers(raw, header_bytes);
+    if (!headers)
+        return fail_in(path, headers.error());
     exr_context_initializer_t init = EXR_DEFAULT_CONTEXT_INITIALIZER;
     init.error_handler_fn = keep_core_message;
     const exr_result_t code = exr_start_read(&file->m_context, path.c_str(), &init);
@@ -156,8 +167,12 @@ Result<std::shared_ptr<const ExrFile>> ExrFile::open(const std::string& path) {
         return core_failure(code, path);
     if (auto result = file->check_chunks(bytes); !result)
         return fail_in(path, std::move(result).error());
-    if (auto result = file->read_headers(); !result)
+    if (auto result = file->read_headers(bytes); !result)
         return fail_in(path, std::move(result).error());
+    auto chunks = ChunkMap::load(std::move(raw), *headers, file->m_parts, file->chunk_counts());
+    if (!chunks)
+        return fail_in(path, std::move(chunks).error());
+    file->m_chunks = std::move(*chunks);
     return file;
 }
 
@@ -180,12 +195,29 @@ Result<void> ExrFile::check_chunks(std::uint64_t file_bytes) const {
     return {};
 }
 
-Result<void> ExrFile::read_headers() {
+std::vector<std::uint64_t> ExrFile::chunk_counts() const {
+    std::vector<std::uint64_t> out;
+    for (std::size_t part = 0; part < m_parts.size(); ++part) {
+        const Imf::Header& header = m_parts[part].header;
+        std::int64_t count = 0;
+        if (int32_t told = 0; m_context != nullptr) {
+            exr_get_chunk_count(m_context, static_cast<int>(part), &told);
+            count = told;
+        } else {
+            count = header.hasChunkCount() ? header.chunkCount()
+                                           : static_cast<std::int64_t>(full_resolution_chunks(m_parts[part]));
+        }
+        out.push_back(static_cast<std::uint64_t>(std::max<std::int64_t>(count, 0)));
+    }
+    return out;
+}
+
+Result<void> ExrFile::read_headers(std::uint64_t file_bytes) {
     try {
         // 0: no threads of OpenEXR's global pool, which belongs to the host.
         const Imf::MultiPartInputFile file(m_path.c_str(), 0, false);
         for (int i = 0; i < file.parts(); ++i) {
-            OSIO_TRY(ExrPart part, understand(file.header(i)));
+            OSIO_TRY(ExrPart part, understand(file.header(i), file_bytes));
             m_parts.push_back(std::move(part));
         }
     } catch (const std::bad_alloc&) {

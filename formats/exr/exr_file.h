@@ -19,9 +19,7 @@
 
 namespace osio::exr {
 
-/// Limits of our own, checked before anything is allocated: a small file cannot ask for much.
-inline constexpr std::size_t kMostChannels = 65536;
-inline constexpr std::uint64_t kMostBlockBytes = std::uint64_t{1} << 32;
+class ChunkMap;
 
 /// A channel as its part stores it. Channels are in the order of their names, as in the file.
 struct ExrChannel {
@@ -75,6 +73,9 @@ class ExrFile {
 
     [[nodiscard]] std::vector<PartSummary> summaries() const;
 
+    /// Where the chunks lie, and their checksums where the file has some.
+    [[nodiscard]] const ChunkMap& chunks() const { return *m_chunks; }
+
     /// For OpenEXRCore's functions; null where Core cannot read the file and the C++ API can.
     [[nodiscard]] exr_const_context_t context() const { return m_context; }
 
@@ -82,11 +83,13 @@ class ExrFile {
     explicit ExrFile(std::string path) : m_path(std::move(path)) {}
 
     [[nodiscard]] Result<void> check_chunks(std::uint64_t file_bytes) const;
-    [[nodiscard]] Result<void> read_headers();
+    [[nodiscard]] Result<void> read_headers(std::uint64_t file_bytes);
+    [[nodiscard]] std::vector<std::uint64_t> chunk_counts() const;
 
     std::string m_path;
     exr_context_t m_context = nullptr;
     std::vector<ExrPart> m_parts;
+    std::shared_ptr<const ChunkMap> m_chunks;
 };
 
 /// True where the file exists and starts with OpenEXR's magic number. Never an error.

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <formats/exr/checksum.h>
+#include <formats/exr/chunk_geometry.h>
 #include <formats/exr/exr_file.h>
 #include <formats/exr/exr_writer.h>
 #include <formats/files/checked_file.h>
@@ -81,6 +83,7 @@ Result<std::unique_ptr<ExrWriter>> ExrWriter::create(const std::string& path, Im
         for (const OutputChannel& channel : channels)
             header.channels().insert(channel.name, Imf::Channel(pixel_type(channel.type)));
         header.lineOrder() = Imf::INCREASING_Y;
+        reserve_checksum(scanline_chunks(header), header);
         return std::unique_ptr<ExrWriter>(
             new ExrWriter(std::make_unique<State>(std::move(file), header, channels)));
     } catch (const std::exception& error) {
@@ -110,7 +113,7 @@ Result<void> ExrWriter::write_rows(int row_count, std::span<const ChannelRows> c
     return {};
 }
 
-Result<void> ExrWriter::finish() {
+Result<void> ExrWriter::finish(files::Durability durability) {
     State& state = *m_state;
     if (state.rows_left != 0)
         return fail(ErrorCode::Io, std::to_string(state.rows_left) + " rows were never written",
@@ -119,7 +122,9 @@ Result<void> ExrWriter::finish() {
     if (state.stream.file().close() != 0)
         return fail(ErrorCode::Io, "cannot be written: " + state.stream.file().failure(),
                     state.file.target());
-    return state.file.commit();
+    if (auto result = write_checksum(state.file.path()); !result)
+        return fail_in(state.file.target(), std::move(result).error());
+    return state.file.commit(durability);
 }
 
 ExrSink::ExrSink(std::unique_ptr<ExrWriter> writer, SampleType type, int width)

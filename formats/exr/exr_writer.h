@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <formats/files/replacement_file.h>
+
 #include <osio/base/result.h>
 #include <osio/collapse/band_view.h>
 #include <osio/collapse/collapse_stream.h>
@@ -48,9 +50,9 @@ class ExrWriter {
     /// The next rows; one ChannelRows for each channel, in the order given to create().
     [[nodiscard]] Result<void> write_rows(int row_count, std::span<const ChannelRows> channels);
 
-    /// Completes the file and puts it in its place. Fails where rows are missing or where the system
-    /// could not store every byte.
-    [[nodiscard]] Result<void> finish();
+    /// Completes the file, gives it its checksum and puts it in its place. Fails where rows are missing
+    /// or where the system could not store every byte.
+    [[nodiscard]] Result<void> finish(files::Durability durability = files::Durability::Handed);
 
   private:
     struct State;
@@ -68,7 +70,9 @@ class ExrSink final : public RowSink {
     [[nodiscard]] Result<void> write_rows(int first_row, int row_count,
                                           std::span<const float* const> planes) override;
 
-    [[nodiscard]] Result<void> finish() { return m_writer->finish(); }
+    [[nodiscard]] Result<void> finish(files::Durability durability = files::Durability::Handed) {
+        return m_writer->finish(durability);
+    }
 
     /// Samples that did not fit a half.
     [[nodiscard]] std::uint64_t clamped_count() const { return m_clamped; }

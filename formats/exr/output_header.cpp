@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <formats/exr/checksum.h>
 #include <formats/exr/output_header.h>
 
 #include <osio/base/text.h>
@@ -26,9 +27,19 @@ bool is_replaced(std::string_view name) {
 }  // namespace
 
 bool is_structural(std::string_view name) {
-    constexpr std::array<std::string_view, 12> kStructure{
-        "channels", "compression", "dataWindow", "displayWindow",      "lineOrder", "tiles",
-        "type",     "version",     "chunkCount", "maxSamplesPerPixel", "multiView", "dwaCompressionLevel"};
+    constexpr std::array<std::string_view, 13> kStructure{"channels",
+                                                          "compression",
+                                                          "dataWindow",
+                                                          "displayWindow",
+                                                          "lineOrder",
+                                                          "tiles",
+                                                          "type",
+                                                          "version",
+                                                          "chunkCount",
+                                                          "maxSamplesPerPixel",
+                                                          "multiView",
+                                                          "dwaCompressionLevel",
+                                                          attribute::kChecksum};
     return std::find(kStructure.begin(), kStructure.end(), name) != kStructure.end();
 }
 

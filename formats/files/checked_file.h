@@ -3,8 +3,8 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <string>
+#include <vector>
 
 namespace osio::files {
 
@@ -33,9 +33,12 @@ class CheckedFile {
     [[nodiscard]] std::string failure() const;
 
   private:
+    void store(const char* bytes, std::size_t count);
+    void flush();
     void note();
 
-    std::FILE* m_file;
+    int m_descriptor;
+    std::vector<char> m_buffer;  ///< not yet given to the system; they end at m_position
     std::uint64_t m_position = 0;
     std::uint64_t m_size = 0;
     int m_errno = 0;

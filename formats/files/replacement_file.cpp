@@ -38,6 +38,19 @@ Result<void> check_target(const std::string& target) {
     return {};
 }
 
+/// fsync(2) of a file or folder by its name.
+bool synchronise(const std::string& path) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (descriptor < 0)
+        return false;
+    const bool done = ::fsync(descriptor) == 0;
+    const int code = errno;
+    const bool closed = ::close(descriptor) == 0;
+    if (!done)
+        errno = code;
+    return done && closed;
+}
+
 }  // namespace
 
 Result<ReplacementFile> ReplacementFile::create(const std::string& target) {
@@ -59,8 +72,10 @@ Result<ReplacementFile> ReplacementFile::create(const std::string& target) {
 
         if (::stat(target.c_str(), &status) == 0)
             ::fchmod(descriptor, status.st_mode & 07777);
-        ::close(descriptor);
-        return ReplacementFile(std::move(path), target);
+        ReplacementFile file(std::move(path), target);
+        if (::close(descriptor) != 0)
+            return system_failure("cannot be written", target);
+        return file;
     }
     return system_failure("cannot be written", target);
 }
@@ -73,10 +88,16 @@ ReplacementFile::~ReplacementFile() {
         ::unlink(m_path.c_str());
 }
 
-Result<void> ReplacementFile::commit() {
+Result<void> ReplacementFile::commit(Durability durability) {
+    if (durability == Durability::Stored && !synchronise(m_path))
+        return system_failure("cannot be stored", m_target);
     if (std::rename(m_path.c_str(), m_target.c_str()) != 0)
         return system_failure("cannot be replaced", m_target);
     m_path.clear();
+    const auto slash = m_target.rfind('/');
+    const std::string folder = slash == std::string::npos ? "." : m_target.substr(0, slash + 1);
+    if (durability == Durability::Stored && !synchronise(folder))
+        return system_failure("is complete, but its folder cannot be stored", m_target);
     return {};
 }
 

@@ -7,6 +7,12 @@
 
 namespace osio::files {
 
+/// When a file counts as written.
+enum class Durability {
+    Handed,  ///< the system has every byte; it stores them within seconds
+    Stored,  ///< the storage has every byte, and the name: it outlives a loss of power
+};
+
 /// A new file that takes an old one's place only when it is complete. It lies beside its target, so
 /// that the rename stays within one file system, and is removed unless it was committed.
 class ReplacementFile {
@@ -24,8 +30,10 @@ class ReplacementFile {
 
     [[nodiscard]] const std::string& target() const { return m_target; }
 
-    /// Gives the temporary the target's name, and the target's permissions where there was one.
-    [[nodiscard]] Result<void> commit();
+    /// Gives the temporary the target's name, and the target's permissions where there was one. With
+    /// Stored, bytes are synchronised before the rename and the folder after it; where the latter fails
+    /// the new file is in its place, and the error says so.
+    [[nodiscard]] Result<void> commit(Durability durability = Durability::Handed);
 
   private:
     ReplacementFile(std::string path, std::string target)

@@ -133,7 +133,7 @@ Result<std::unique_ptr<exr::ExrWriter>> SpectralExrOutput::make_writer(bool with
     set_compression(m_spec, header);
     insert_metadata(m_spec, header);
     for (const char* name : {exr::attribute::kRecipe, exr::attribute::kPlan, exr::attribute::kWarnings,
-                             kSourceAttribute, kSourcePartAttribute})
+                             kSourceAttribute, kSourcePartAttribute, kFsyncAttribute})
         header.erase(name);
     exr::complete_spectral_header(m_layout, header);
     if (!with_preview) {
@@ -210,7 +210,8 @@ Result<void> SpectralExrOutput::finish() {
             return fail(ErrorCode::Io, "rows from " + std::to_string(m_next_row) + " on were never written");
         OSIO_CHECK_OK(write_held_rows(!drop_stale_preview()));
     }
-    return m_writer->finish();
+    return m_writer->finish(m_spec.get_int_attribute(kFsyncAttribute) != 0 ? files::Durability::Stored
+                                                                           : files::Durability::Handed);
 }
 
 bool SpectralExrOutput::is_preview(std::size_t channel) const {

@@ -14,6 +14,9 @@
 
 namespace osio::plugin {
 
+/// Metadata (int, not 0) by which a host asks that close() succeeds only when the storage has every byte.
+inline constexpr const char* kFsyncAttribute = "spectral:fsync";
+
 /// Writes spectral OpenEXR: one scanline part, bands under the layout's names, the layout's
 /// attributes, half, float or uint for each channel.
 ///

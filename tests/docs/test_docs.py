@@ -131,10 +131,11 @@ class Reference(OsioCase):
         words = ("--to", "srgb", "--illuminant", "A")
         self.names(self.keys_of(self.osiotool_json("info", "shot.exr")))
         self.names(self.keys_of(self.osiotool_json("plan", "shot.exr", *words)))
+        self.names(self.keys_of(self.osiotool_json("verify", "shot.exr")))
         self.names(self.keys_of(self.osiotool_json("collapse", "shot.exr", "o.exr", *words)))
 
     def test_every_option(self):
-        for command in ("info", "collapse", "plan"):
+        for command in ("info", "collapse", "plan", "verify"):
             text = self.osiotool(command, "--help").stdout
             self.names(set(re.findall(r"^  --?([a-z][a-z-]*)", text, re.M)) - {"h"})
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <formats/exr/exr_file.h>
+#include <formats/files/replacement_file.h>
 
 #include <osio/base/result.h>
 #include <osio/collapse/collapse_stream.h>
@@ -26,6 +27,7 @@ struct HostImage {
     StoredType type = StoredType::Float;
     std::vector<std::string> channel_names;
     const Imf::Header* header = nullptr;  ///< windows and metadata
+    files::Durability durability = files::Durability::Handed;
 };
 
 /// Takes finished rows; the file appears under its name in finish().

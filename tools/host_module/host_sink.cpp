@@ -99,8 +99,8 @@ class OiioSink final : public HostSink {
     OiioSink(files::ReplacementFile file, std::unique_ptr<CheckedProxy> proxy,
              std::unique_ptr<OIIO::ImageOutput> output, const HostImage& image, const Imath::Box2i& frame)
         : m_file(std::move(file)), m_proxy(std::move(proxy)), m_output(std::move(output)),
-          m_integer(is_integer(image.type)), m_data(image.header->dataWindow()), m_frame(frame),
-          m_next_row(frame.min.y) {}
+          m_integer(is_integer(image.type)), m_durability(image.durability),
+          m_data(image.header->dataWindow()), m_frame(frame), m_next_row(frame.min.y) {}
 
     [[nodiscard]] Result<void> write_rows(int first_row, int row_count,
                                           std::span<const float* const> planes) override {
@@ -124,7 +124,7 @@ class OiioSink final : public HostSink {
         // Behind a proxy every byte is known to be stored, and the last row tells the rest.
         const int first_checked = m_proxy ? m_output->spec().height - 1 : 0;
         OSIO_CHECK_OK(check_written(m_file.path(), *m_output, first_checked, m_file.target()));
-        return m_file.commit();
+        return m_file.commit(m_durability);
     }
 
     [[nodiscard]] std::uint64_t clipped_pixels() const override { return m_integer ? m_clipped : 0; }
@@ -190,6 +190,7 @@ class OiioSink final : public HostSink {
     std::unique_ptr<CheckedProxy> m_proxy;        ///< null for the few formats that write by themselves
     std::unique_ptr<OIIO::ImageOutput> m_output;  // after the proxy: it writes until it is gone
     bool m_integer;
+    files::Durability m_durability;
     Imath::Box2i m_data;
     Imath::Box2i m_frame;
     int m_next_row;

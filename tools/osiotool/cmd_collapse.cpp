@@ -8,6 +8,7 @@
 
 #include <formats/exr/exr_writer.h>
 #include <formats/exr/output_header.h>
+#include <formats/exr/soundness.h>
 #include <formats/files/text_file.h>
 
 #include <osio/base/text.h>
@@ -73,6 +74,10 @@ Result<StoredType> choose_depth(const CollapseOptions& options, const OutputSpac
     return type;
 }
 
+files::Durability durability(const CollapseOptions& options) {
+    return options.fsync ? files::Durability::Stored : files::Durability::Handed;
+}
+
 /// Where the rows go, and what is known when they are there.
 struct Output {
     std::unique_ptr<RowSink> sink;
@@ -91,9 +96,9 @@ Result<Output> open_exr(const CollapseOptions& options, const exr::CollapseJob& 
     OSIO_TRY(auto writer, exr::ExrWriter::create(options.output, std::move(header), channels));
     auto sink = std::make_unique<exr::ExrSink>(std::move(writer), sample, job.part().data_window.width());
     auto* const exr = sink.get();
-    return Output{std::move(sink), [exr](CollapseOutcome& outcome) {
+    return Output{std::move(sink), [exr, durability = durability(options)](CollapseOutcome& outcome) {
                       outcome.clamped_samples = exr->clamped_count();
-                      return exr->finish();
+                      return exr->finish(durability);
                   }};
 }
 
@@ -102,12 +107,30 @@ Result<Output> open_other(const CollapseOptions& options, const exr::CollapseJob
     if (!options.compression.empty())
         return fail(ErrorCode::Usage, "--compression is for .exr output");
     OSIO_TRY(const host::HostModule* const module, load_host_module());
-    OSIO_TRY(auto sink, module->open_sink({options.output, type, job.channel_names(), &header}));
+    OSIO_TRY(auto sink,
+             module->open_sink({options.output, type, job.channel_names(), &header, durability(options)}));
     auto* const other = sink.get();
     return Output{std::move(sink), [other](CollapseOutcome& outcome) {
                       outcome.clipped_pixels = other->clipped_pixels();
                       return other->finish();
                   }};
+}
+
+/// The rows that cannot be decoded; an error where none can.
+Result<std::vector<exr::BadRows>> missing_rows(const exr::CollapseJob& job, RowRange rows, Runner& runner) {
+    OSIO_TRY(const auto source, job.open_source(exr::Grain::Chunk));
+    OSIO_TRY(auto bad, exr::find_bad_rows(*source, rows, runner, [](double) { return !interrupted(); }));
+    if (exr::row_count(bad) == static_cast<std::size_t>(job.part().data_window.height()))
+        return fail(ErrorCode::Damaged, "no row can be decoded; first: " + bad.front().why, job.file->path());
+    return bad;
+}
+
+Result<std::unique_ptr<BlockSource>> open_source(const exr::CollapseJob& job,
+                                                 const std::vector<exr::BadRows>& missing) {
+    if (missing.empty())
+        return job.open_source();
+    OSIO_TRY(auto source, job.open_source(exr::Grain::Chunk));
+    return exr::with_black_rows(std::move(source), missing, job.plane_types());
 }
 
 }  // namespace
@@ -117,24 +140,27 @@ Result<ExitCode> run_collapse(const CollapseOptions& options) {
     OSIO_TRY(const CollapseRequest request, request_of(options.request));
     OSIO_TRY(const exr::CollapseJob job, exr::open_collapse(options.input, request, files::text_loader({})));
     OSIO_TRY(const StoredType type, choose_depth(options, job.plan.space));
-    OSIO_TRY(const auto source, job.open_source());
-
     ThreadRunner runner(options.threads);
     exr::set_compression_threads(runner.worker_count());
     catch_interrupts();
-    const Imf::Header header = exr::collapsed_header(job);
+    const exr::Window& window = job.part().data_window;
+    const RowRange rows{window.min_y, window.max_y};
+    CollapseOutcome outcome;
+    if (options.allow_partial) {
+        OSIO_TRY(outcome.missing, missing_rows(job, rows, runner));
+    }
+    OSIO_TRY(const auto source, open_source(job, outcome.missing));
+    Imf::Header header = exr::collapsed_header(job);
+    exr::note_missing_rows(outcome.missing, header);
     OSIO_TRY(const Output output, is_exr(options.output) ? open_exr(options, job, header, type)
                                                          : open_other(options, job, header, type));
 
-    CollapseOutcome outcome;
     outcome.output = options.output;
     outcome.type = depth_name(type);
-    const exr::Window& window = job.part().data_window;
     {
         ProgressBar bar(options.output, !options.quiet);
-        OSIO_TRY(outcome.counts,
-                 collapse_stream(*source, job.plan, job.alpha.has_value(), {window.min_y, window.max_y},
-                                 *output.sink, runner, std::ref(bar)));
+        OSIO_TRY(outcome.counts, collapse_stream(*source, job.plan, job.alpha.has_value(), rows, *output.sink,
+                                                 runner, std::ref(bar)));
     }
     OSIO_CHECK_OK(output.finish(outcome));
     outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
@@ -144,9 +170,13 @@ Result<ExitCode> run_collapse(const CollapseOptions& options) {
             fmt::print(stderr, "warning: {}\n", warning);
         fmt::print(stderr, "{}", outcome_text(job, outcome));
     }
+    if (!outcome.missing.empty())
+        fmt::print(stderr, "osiotool: {}: {} of {} rows were damaged and are black in {}: {}; first: {}\n",
+                   options.input, exr::row_count(outcome.missing), window.height(), options.output,
+                   exr::rows_text(outcome.missing), outcome.missing.front().why);
     if (options.json)
         fmt::print("{}", outcome_json(job, outcome));
-    return kDone;
+    return outcome.missing.empty() ? kDone : kBadInput;
 }
 
 }  // namespace osio::tool

@@ -34,8 +34,16 @@ struct CollapseOptions {
     std::string depth;        ///< half, float, uint8, uint16; empty: what suits the output
     std::string compression;  ///< of EXR output; empty: zip
     unsigned threads = 0;
-    bool raw = false;  ///< linear values into integers are wanted
+    bool raw = false;            ///< linear values into integers are wanted
+    bool allow_partial = false;  ///< keep what is sound of a damaged input
+    bool fsync = false;          ///< done only when the storage has every byte
     bool quiet = false;
+    bool json = false;
+};
+
+struct VerifyOptions {
+    std::vector<std::string> inputs;
+    unsigned threads = 0;
     bool json = false;
 };
 
@@ -46,6 +54,7 @@ struct ListOptions {
 [[nodiscard]] Result<ExitCode> run_info(const InfoOptions& options);
 [[nodiscard]] Result<ExitCode> run_plan(const PlanOptions& options);
 [[nodiscard]] Result<ExitCode> run_collapse(const CollapseOptions& options);
+[[nodiscard]] Result<ExitCode> run_verify(const VerifyOptions& options);
 [[nodiscard]] Result<ExitCode> run_list(const ListOptions& options);
 [[nodiscard]] Result<ExitCode> run_doctor();
 

@@ -53,6 +53,7 @@ class CommandLine {
         add_info();
         add_collapse();
         add_plan();
+        add_verify();
         add_list();
         add("doctor", "tell whether OpenImageIO sees our plugins, and if not, why",
             [] { return run_doctor(); });
@@ -108,6 +109,12 @@ class CommandLine {
             ->type_name("C")
             ->group("Output");
         command->add_flag("--raw", m_collapse.raw, "allow linear values in integers")->group("Output");
+        command
+            ->add_flag("--allow-partial", m_collapse.allow_partial,
+                       "damaged rows of the input become black rows; exit code 4 all the same")
+            ->group("Output");
+        command->add_flag("--fsync", m_collapse.fsync, "done only when the storage has every byte")
+            ->group("Output");
         command->add_option("--threads", m_collapse.threads, "default: one a processor")
             ->type_name("N")
             ->group("Output");
@@ -121,6 +128,14 @@ class CommandLine {
         command->add_option("input", m_plan.input, "spectral OpenEXR file")->required();
         add_request_options(*command, m_plan.request);
         command->add_flag("--json", m_plan.json, "as JSON");
+    }
+
+    void add_verify() {
+        CLI::App* const command = add("verify", "decode everything, say what is sound and what is not",
+                                      [this] { return run_verify(m_verify); });
+        command->add_option("file", m_verify.inputs, "OpenEXR files")->required();
+        command->add_option("--threads", m_verify.threads, "default: one a processor")->type_name("N");
+        command->add_flag("--json", m_verify.json, "as JSON");
     }
 
     void add_list() {
@@ -157,6 +172,7 @@ class CommandLine {
     InfoOptions m_info;
     CollapseOptions m_collapse;
     PlanOptions m_plan;
+    VerifyOptions m_verify;
     ListOptions m_list;
 };
 

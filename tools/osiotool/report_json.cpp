@@ -107,6 +107,31 @@ Json plan_object(const exr::CollapseJob& job) {
             {"warnings", job.warnings}};
 }
 
+Json rows_json(const std::vector<exr::BadRows>& bad) {
+    Json out = Json::array();
+    for (const exr::BadRows& run : bad)
+        out.push_back({run.rows.first, run.rows.last});
+    return out;
+}
+
+Json soundness_json(const FileSoundness& file) {
+    Json parts = Json::array();
+    for (std::size_t index = 0; index < file.parts.size(); ++index) {
+        const exr::PartSoundness& part = file.parts[index];
+        parts.push_back({{"name", file.file->parts()[index].name},
+                         {"sound", part.decoded ? Json(part.sound()) : Json(nullptr)},
+                         {"decoded", part.decoded},
+                         {"not_decoded", part.not_decoded},
+                         {"bad_rows", rows_json(part.bad)},
+                         {"reason", part.sound() ? Json(nullptr) : Json(part.bad.front().why)}});
+    }
+    return {{"file", file.path},
+            {"sound", !file.damaged() && !file.failure},
+            {"checksum", file.checksum()},
+            {"failure", file.failure ? Json(file.failure->what) : Json(nullptr)},
+            {"parts", std::move(parts)}};
+}
+
 /// Text from files may hold bytes that are no UTF-8; they are replaced rather than refused.
 std::string dump(const Json& json) {
     return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -125,6 +150,13 @@ std::string plan_json(const exr::CollapseJob& job) {
     return dump(plan_object(job));
 }
 
+std::string verify_json(const std::vector<FileSoundness>& files) {
+    Json out = Json::array();
+    for (const FileSoundness& file : files)
+        out.push_back(soundness_json(file));
+    return dump({{"files", std::move(out)}});
+}
+
 std::string outcome_json(const exr::CollapseJob& job, const CollapseOutcome& outcome) {
     return dump({{"input", job.file->path()},
                  {"output", outcome.output},
@@ -138,6 +170,7 @@ std::string outcome_json(const exr::CollapseJob& job, const CollapseOutcome& out
                  {"negative_pixels", outcome.counts.negative},
                  {"clipped_pixels", outcome.clipped_pixels},
                  {"clamped_samples", outcome.clamped_samples},
+                 {"missing_rows", rows_json(outcome.missing)},
                  {"seconds", outcome.seconds},
                  {"recipe", recipe_text(job.plan.request)},
                  {"id", job.plan.id},

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <formats/exr/raw_file.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <utility>
+
+namespace osio::exr {
+
+Result<RawFile> RawFile::open(const std::string& path) {
+    const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+
+    struct stat status {};
+
+    if (descriptor < 0 || ::fstat(descriptor, &status) != 0) {
+        const int code = errno;
+        if (descriptor >= 0)
+            ::close(descriptor);
+        return fail(ErrorCode::Io, std::strerror(code), path);
+    }
+    return RawFile(descriptor, static_cast<std::uint64_t>(status.st_size));
+}
+
+RawFile::RawFile(RawFile&& other) noexcept
+    : m_descriptor(std::exchange(other.m_descriptor, -1)), m_size(other.m_size) {}
+
+RawFile::~RawFile() {
+    if (m_descriptor >= 0)
+        ::close(m_descriptor);
+}
+
+Result<void> RawFile::read(std::uint64_t at, std::uint64_t count, std::string& out) const {
+    if (at > m_size || count > m_size - at)
+        return fail(ErrorCode::Damaged, std::to_string(count) + " bytes at " + std::to_string(at) +
+                                            " lie beyond the end of the file (" + std::to_string(m_size) +
+                                            " bytes)");
+    out.resize(count);
+    for (std::uint64_t done = 0; done < count;) {
+        const ssize_t got =
+            ::pread(m_descriptor, out.data() + done, count - done, static_cast<off_t>(at + done));
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0)
+            return fail(ErrorCode::Io, std::strerror(errno));
+        if (got == 0)
+            return fail(ErrorCode::Damaged, "became shorter while it was read");
+        done += static_cast<std::uint64_t>(got);
+    }
+    return {};
+}
+
+}  // namespace osio::exr
