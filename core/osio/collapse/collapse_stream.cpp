@@ -9,6 +9,30 @@ namespace osio {
 
 namespace {
 
+/// Keeps rows for their turn.
+class DirectWorker final : public RowWorker {
+  public:
+    explicit DirectWorker(RowSink& sink) : m_sink(sink) {}
+
+    [[nodiscard]] Result<void> prepare(int first_row, int row_count,
+                                       std::span<const float* const> planes) override {
+        m_first_row = first_row;
+        m_row_count = row_count;
+        m_planes.assign(planes.begin(), planes.end());
+        return {};
+    }
+
+    [[nodiscard]] Result<void> deliver() override {
+        return m_sink.write_rows(m_first_row, m_row_count, m_planes);
+    }
+
+  private:
+    RowSink& m_sink;
+    std::vector<const float*> m_planes;
+    int m_first_row = 0;
+    int m_row_count = 0;
+};
+
 /// What all workers of one collapse share. `counts` belongs to deliver(), one call at a time.
 struct Collapse {
     const CollapsePlan& plan;
@@ -23,7 +47,7 @@ struct Collapse {
 class Collapser final : public BlockVisitor {
   public:
     explicit Collapser(Collapse& collapse)
-        : m_shared(collapse), m_plan(collapse.plan),
+        : m_shared(collapse), m_plan(collapse.plan), m_worker(collapse.sink.start_worker()),
           m_planes(collapse.plan.weights.rows() + (collapse.has_alpha ? 1 : 0)) {}
 
     void process(const PlanarBlock& block) override {
@@ -43,12 +67,15 @@ class Collapser final : public BlockVisitor {
             encode(pixels);
         m_first_row = std::max(m_shared.rows.first, block.first_row);
         m_row_count = std::min(m_shared.rows.last, block.first_row + block.row_count - 1) - m_first_row + 1;
-        m_counts = count(rows_of(block));
+        const std::vector<const float*> planes = rows_of(block);
+        m_counts = count(planes);
+        m_prepared = m_worker->prepare(m_first_row, m_row_count, planes);
     }
 
-    [[nodiscard]] Result<void> deliver(const PlanarBlock& block) override {
+    [[nodiscard]] Result<void> deliver(const PlanarBlock&) override {
+        OSIO_CHECK_OK(m_prepared);
         m_shared.counts += m_counts;
-        return m_shared.sink.write_rows(m_first_row, m_row_count, rows_of(block));
+        return m_worker->deliver();
     }
 
   private:
@@ -93,6 +120,8 @@ class Collapser final : public BlockVisitor {
 
     Collapse& m_shared;
     const CollapsePlan& m_plan;
+    std::unique_ptr<RowWorker> m_worker;
+    Result<void> m_prepared;
     std::vector<std::vector<float>> m_planes;
     std::vector<float*> m_pointers;
     int m_first_row = 0;
@@ -101,6 +130,10 @@ class Collapser final : public BlockVisitor {
 };
 
 }  // namespace
+
+std::unique_ptr<RowWorker> RowSink::start_worker() {
+    return std::make_unique<DirectWorker>(*this);
+}
 
 CollapseCounts& CollapseCounts::operator+=(const CollapseCounts& other) {
     pixels += other.pixels;
