@@ -3,6 +3,8 @@
 #include <osio/collapse/kernel.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 namespace osio {
@@ -88,22 +90,40 @@ class Collapser final : public BlockVisitor {
         return out;
     }
 
+    /// In integers and short runs, which compilers turn into vectors.
     [[nodiscard]] CollapseCounts count(std::span<const float* const> planes) const {
+        constexpr std::size_t kRun = 1024;
         CollapseCounts counts;
         counts.pixels = static_cast<std::uint64_t>(m_row_count) * m_shared.width;
-        for (std::size_t pixel = 0; pixel < counts.pixels; ++pixel) {
-            bool nan = false, infinite = false, negative = false;
-            for (std::size_t row = 0; row < m_plan.weights.rows(); ++row) {
-                const float value = planes[row][pixel];
-                nan |= std::isnan(value);
-                infinite |= std::isinf(value);
-                negative |= value < 0;
+        std::array<std::uint32_t, kRun> flags;
+        for (std::size_t first = 0; first < counts.pixels; first += kRun) {
+            const std::size_t run = std::min(kRun, counts.pixels - first);
+            flags.fill(0);
+            for (std::size_t row = 0; row < m_plan.weights.rows(); ++row)
+                for (std::size_t i = 0; i < run; ++i)
+                    flags[i] |= oddness(planes[row][first + i]);
+            std::uint32_t nan = 0, infinite = 0, negative = 0;
+            for (std::size_t i = 0; i < run; ++i) {
+                nan += flags[i] & 1;
+                infinite += flags[i] >> 1 & 1;
+                negative += flags[i] >> 2;
             }
             counts.nan += nan;
             counts.infinite += infinite;
             counts.negative += negative;
         }
         return counts;
+    }
+
+    /// 1 for NaN, plus 2 for an infinity, plus 4 for what is below zero.
+    static std::uint32_t oddness(float value) {
+        constexpr std::uint32_t kInfinity = 0x7F800000;
+        const auto bits = std::bit_cast<std::uint32_t>(value);
+        const std::uint32_t magnitude = bits & 0x7FFFFFFF;
+        const std::uint32_t nan = magnitude > kInfinity;
+        const std::uint32_t infinite = magnitude == kInfinity;
+        const std::uint32_t negative = (bits >> 31) & (nan ^ 1) & (magnitude != 0);
+        return nan | infinite << 1 | negative << 2;
     }
 
     void encode(std::size_t pixels) {
