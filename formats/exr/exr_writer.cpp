@@ -3,17 +3,18 @@
 #include <formats/exr/chunk_geometry.h>
 #include <formats/exr/exr_file.h>
 #include <formats/exr/exr_writer.h>
+#include <formats/exr/zip_output.h>
 #include <formats/files/checked_file.h>
 #include <formats/files/replacement_file.h>
 
-#include <Imath/half.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfIO.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfThreading.h>
 
-#include <cmath>
+#include <algorithm>
+#include <atomic>
 #include <exception>
 #include <optional>
 #include <stdexcept>
@@ -26,8 +27,8 @@ void set_compression_threads(unsigned count) {
 
 namespace {
 
-/// The largest finite half.
-constexpr float kHalfMax = 65504.0F;
+/// Fewer rows are not worth handing to a worker.
+constexpr int kFewestRows = 16;
 
 /// OpenEXR's view of a checked file: its OutputFile writes the offset table when it is destroyed and
 /// swallows what goes wrong there.
@@ -56,19 +57,92 @@ struct ExrWriter::State {
     State(files::ReplacementFile replacement, const Imf::Header& header,
           std::span<const OutputChannel> output_channels)
         : file(std::move(replacement)), channels(output_channels.begin(), output_channels.end()),
-          stream(file.path()), output(std::in_place, stream, header, Imf::globalThreadCount()),
-          first_row(header.dataWindow().min.y), min_x(header.dataWindow().min.x),
-          width(header.dataWindow().max.x - min_x + 1), rows_left(header.dataWindow().max.y - first_row + 1) {
+          stream(file.path()), next_row(header.dataWindow().min.y), min_x(header.dataWindow().min.x),
+          width(header.dataWindow().max.x - min_x + 1), rows_left(header.dataWindow().max.y - next_row + 1) {
+        if (ZipOutput::can_write(header))
+            zip.emplace(stream, header, channels);
+        else
+            output.emplace(stream, header, Imf::globalThreadCount());
+    }
+
+    /// Runs what writes, and turns what OpenEXR and the stream throw into an error.
+    template <class Write>
+    Result<void> guarded(int row_count, Write write) {
+        try {
+            write();
+        } catch (const std::exception& error) {
+            return fail(ErrorCode::Io, std::string("cannot be written: ") + error.what(), file.target());
+        }
+        next_row += row_count;
+        rows_left -= row_count;
+        return {};
     }
 
     files::ReplacementFile file;
     std::vector<OutputChannel> channels;
     CheckedStream stream;
+    std::optional<ZipOutput> zip;  ///< this or the next
     std::optional<Imf::OutputFile> output;
-    int first_row;
+    int next_row;
     int min_x;
     int width;
     int rows_left;
+};
+
+/// Packs chunks in the worker.
+class ExrWriter::ZipPacker final : public Packer {
+  public:
+    explicit ZipPacker(State& state) : m_state(state), m_encoder(state.zip->level()) {}
+
+    [[nodiscard]] Result<void> pack(int first_row, int row_count,
+                                    std::span<const ChannelRows> channels) override {
+        m_row_count = row_count;
+        m_state.zip->pack(first_row, row_count, channels, m_encoder, m_rows);
+        return {};
+    }
+
+    [[nodiscard]] Result<void> write() override {
+        return m_state.guarded(m_row_count, [&] { m_state.zip->append(m_rows); });
+    }
+
+  private:
+    State& m_state;
+    ZipEncoder m_encoder;
+    PackedRows m_rows;
+    int m_row_count = 0;
+};
+
+/// Leaves the packing to OpenEXR, when it is the rows' turn.
+class ExrWriter::PlainPacker final : public Packer {
+  public:
+    explicit PlainPacker(State& state) : m_state(state) {}
+
+    [[nodiscard]] Result<void> pack(int, int row_count, std::span<const ChannelRows> channels) override {
+        m_row_count = row_count;
+        m_channels.assign(channels.begin(), channels.end());
+        return {};
+    }
+
+    [[nodiscard]] Result<void> write() override {
+        return m_state.guarded(m_row_count, [&] {
+            Imf::FrameBuffer buffer;
+            for (std::size_t c = 0; c < m_channels.size(); ++c) {
+                const auto& rows = m_channels[c];
+                buffer.insert(m_state.channels[c].name,
+                              Imf::Slice::Make(pixel_type(m_state.channels[c].type), rows.data,
+                                               Imath::V2i(m_state.min_x, m_state.next_row), m_state.width,
+                                               m_row_count, static_cast<std::size_t>(rows.pixel_stride_bytes),
+                                               static_cast<std::size_t>(rows.row_stride_bytes)));
+            }
+            m_state.output->setFrameBuffer(buffer);
+            m_state.output->writePixels(m_row_count);
+        });
+    }
+
+  private:
+    State& m_state;
+    std::vector<ChannelRows> m_channels;
+    int m_row_count = 0;
 };
 
 ExrWriter::ExrWriter(std::unique_ptr<State> state) : m_state(std::move(state)) {}
@@ -91,25 +165,49 @@ Result<std::unique_ptr<ExrWriter>> ExrWriter::create(const std::string& path, Im
     }
 }
 
-Result<void> ExrWriter::write_rows(int row_count, std::span<const ChannelRows> channels) {
-    State& state = *m_state;
-    try {
-        Imf::FrameBuffer buffer;
-        for (std::size_t c = 0; c < channels.size(); ++c) {
-            const auto& rows = channels[c];
-            buffer.insert(state.channels[c].name,
-                          Imf::Slice::Make(pixel_type(state.channels[c].type), rows.data,
-                                           Imath::V2i(state.min_x, state.first_row), state.width, row_count,
-                                           static_cast<std::size_t>(rows.pixel_stride_bytes),
-                                           static_cast<std::size_t>(rows.row_stride_bytes)));
+std::unique_ptr<ExrWriter::Packer> ExrWriter::start_packer() {
+    if (m_state->zip)
+        return std::make_unique<ZipPacker>(*m_state);
+    return std::make_unique<PlainPacker>(*m_state);
+}
+
+Result<void> ExrWriter::write_rows(int row_count, std::span<const ChannelRows> channels, Runner* runner) {
+    const int lines = m_state->zip ? m_state->zip->lines_per_chunk() : row_count;
+    const int first_row = m_state->next_row, end_row = first_row + row_count;
+    const int rows_per_piece = std::max(lines, kFewestRows / lines * lines);
+    const bool spread = runner != nullptr && m_state->zip && row_count > rows_per_piece;
+    const unsigned workers = spread ? runner->worker_count() : 1;
+    std::vector<std::unique_ptr<Packer>> packers;
+    for (unsigned worker = 0; worker < workers; ++worker)
+        packers.push_back(start_packer());
+    const auto pack = [&](unsigned worker, int first, int end) {
+        std::vector<ChannelRows> rows(channels.begin(), channels.end());
+        for (ChannelRows& channel : rows)
+            channel.data += channel.row_stride_bytes * (first - first_row);
+        return packers[worker]->pack(first, end - first, rows);
+    };
+    // A wave: a piece for each worker, then their turns.
+    for (int row = first_row; row < end_row;) {
+        std::vector<std::pair<int, int>> pieces;
+        for (unsigned worker = 0; worker < workers && row < end_row; ++worker) {
+            const int end = spread ? std::min(end_row, row + rows_per_piece) : end_row;
+            pieces.emplace_back(row, end);
+            row = end;
         }
-        state.output->setFrameBuffer(buffer);
-        state.output->writePixels(row_count);
-    } catch (const std::exception& error) {
-        return fail(ErrorCode::Io, std::string("cannot be written: ") + error.what(), state.file.target());
+        std::vector<Result<void>> results(pieces.size());
+        const auto work = [&](unsigned worker) {
+            if (worker < pieces.size())
+                results[worker] = pack(worker, pieces[worker].first, pieces[worker].second);
+        };
+        if (spread)
+            runner->run(work);
+        else
+            work(0);
+        for (unsigned worker = 0; worker < pieces.size(); ++worker) {
+            OSIO_CHECK_OK(std::move(results[worker]));
+            OSIO_CHECK_OK(packers[worker]->write());
+        }
     }
-    state.first_row += row_count;
-    state.rows_left -= row_count;
     return {};
 }
 
@@ -118,6 +216,8 @@ Result<void> ExrWriter::finish(files::Durability durability) {
     if (state.rows_left != 0)
         return fail(ErrorCode::Io, std::to_string(state.rows_left) + " rows were never written",
                     state.file.target());
+    if (state.zip)
+        OSIO_CHECK_OK(state.guarded(0, [&] { state.zip->finish(); }));
     state.output.reset();  // writes the offset table
     if (state.stream.file().close() != 0)
         return fail(ErrorCode::Io, "cannot be written: " + state.stream.file().failure(),
@@ -125,33 +225,6 @@ Result<void> ExrWriter::finish(files::Durability durability) {
     if (auto result = write_checksum(state.file.path()); !result)
         return fail_in(state.file.target(), std::move(result).error());
     return state.file.commit(durability);
-}
-
-ExrSink::ExrSink(std::unique_ptr<ExrWriter> writer, SampleType type, int width)
-    : m_writer(std::move(writer)), m_type(type), m_width(static_cast<std::size_t>(width)) {}
-
-Result<void> ExrSink::write_rows(int, int row_count, std::span<const float* const> planes) {
-    const std::size_t samples = static_cast<std::size_t>(row_count) * m_width;
-    const auto bytes = static_cast<std::ptrdiff_t>(sample_bytes(m_type));
-    std::vector<ChannelRows> channels;
-    if (m_type == SampleType::Half)
-        m_halves.resize(samples * planes.size());
-    for (std::size_t c = 0; c < planes.size(); ++c) {
-        const void* data = planes[c];
-        if (m_type == SampleType::Half) {
-            std::uint16_t* const halves = m_halves.data() + c * samples;
-            for (std::size_t i = 0; i < samples; ++i) {
-                const float value = planes[c][i];
-                const bool clamped = std::abs(value) > kHalfMax;
-                m_clamped += clamped;
-                halves[i] = Imath::half(clamped ? std::copysign(kHalfMax, value) : value).bits();
-            }
-            data = halves;
-        }
-        channels.push_back(
-            {static_cast<const std::byte*>(data), bytes, bytes * static_cast<std::ptrdiff_t>(m_width)});
-    }
-    return m_writer->write_rows(row_count, channels);
 }
 
 }  // namespace osio::exr

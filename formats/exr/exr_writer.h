@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <formats/exr/output_rows.h>
 #include <formats/files/replacement_file.h>
 
 #include <osio/base/result.h>
-#include <osio/collapse/band_view.h>
 #include <osio/collapse/collapse_stream.h>
 
 #include <OpenEXR/ImfHeader.h>
 
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -18,25 +17,14 @@
 
 namespace osio::exr {
 
-/// How many threads OpenEXR compresses with in this process. For programs; in a plugin the host says.
+/// How many threads OpenEXR compresses with in this process, where it is OpenEXR that compresses. For
+/// programs; in a plugin the host says.
 void set_compression_threads(unsigned count);
-
-/// A channel to be written.
-struct OutputChannel {
-    std::string name;
-    SampleType type = SampleType::Float;
-};
-
-/// Where a channel's samples lie for some rows; samples have the type of the channel.
-struct ChannelRows {
-    const std::byte* data = nullptr;  ///< first sample of the first row
-    std::ptrdiff_t pixel_stride_bytes = 0;
-    std::ptrdiff_t row_stride_bytes = 0;
-};
 
 /// Writes a scanline OpenEXR file, rows from top to bottom, into a temporary beside the target that
 /// takes the target's place in finish(). Until then, and where anything fails, the old file stays
-/// and the temporary goes away.
+/// and the temporary goes away. ZIP and ZIPS are packed by libdeflate, at the header's level, on the
+/// caller's threads; the others by OpenEXR.
 class ExrWriter {
   public:
     /// `header` gives windows, compression and attributes; its channels are replaced.
@@ -47,14 +35,33 @@ class ExrWriter {
     ExrWriter& operator=(const ExrWriter&) = delete;
     ~ExrWriter();
 
-    /// The next rows; one ChannelRows for each channel, in the order given to create().
-    [[nodiscard]] Result<void> write_rows(int row_count, std::span<const ChannelRows> channels);
+    /// Packs rows ahead of their turn. One for each worker, and outlived by the writer.
+    class Packer {
+      public:
+        virtual ~Packer() = default;
+
+        /// Any rows, while other packers work on theirs.
+        [[nodiscard]] virtual Result<void> pack(int first_row, int row_count,
+                                                std::span<const ChannelRows> channels) = 0;
+
+        /// Writes what was packed: one call at a time, in the order of rows.
+        [[nodiscard]] virtual Result<void> write() = 0;
+    };
+
+    [[nodiscard]] std::unique_ptr<Packer> start_packer();
+
+    /// The next rows; one ChannelRows for each channel, in the order given to create(). With a runner
+    /// the work is spread over its workers.
+    [[nodiscard]] Result<void> write_rows(int row_count, std::span<const ChannelRows> channels,
+                                          Runner* runner = nullptr);
 
     /// Completes the file, gives it its checksum and puts it in its place. Fails where rows are missing
     /// or where the system could not store every byte.
     [[nodiscard]] Result<void> finish(files::Durability durability = files::Durability::Handed);
 
   private:
+    class ZipPacker;
+    class PlainPacker;
     struct State;
     explicit ExrWriter(std::unique_ptr<State> state);
 
@@ -70,6 +77,9 @@ class ExrSink final : public RowSink {
     [[nodiscard]] Result<void> write_rows(int first_row, int row_count,
                                           std::span<const float* const> planes) override;
 
+    /// Converts and packs in the workers.
+    [[nodiscard]] std::unique_ptr<RowWorker> start_worker() override;
+
     [[nodiscard]] Result<void> finish(files::Durability durability = files::Durability::Handed) {
         return m_writer->finish(durability);
     }
@@ -78,10 +88,11 @@ class ExrSink final : public RowSink {
     [[nodiscard]] std::uint64_t clamped_count() const { return m_clamped; }
 
   private:
+    class Worker;
+
     std::unique_ptr<ExrWriter> m_writer;
     SampleType m_type;
     std::size_t m_width;
-    std::vector<std::uint16_t> m_halves;
     std::uint64_t m_clamped = 0;
 };
 

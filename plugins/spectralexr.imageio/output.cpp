@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <plugins/common/exr_metadata.h>
+#include <plugins/common/host_runner.h>
 #include <plugins/spectralexr.imageio/output.h>
 #include <plugins/spectralexr.imageio/spec.h>
 
@@ -184,7 +185,7 @@ Result<void> SpectralExrOutput::write_native_rows(const std::byte* rows, int row
     std::vector<exr::ChannelRows> channels;
     for (const std::ptrdiff_t offset : m_offsets)
         channels.push_back({rows + offset, pixel_bytes, row_bytes});
-    return m_writer->write_rows(row_count, channels);
+    return write_planes(row_count, channels);
 }
 
 bool SpectralExrOutput::close() {
@@ -242,7 +243,12 @@ Result<void> SpectralExrOutput::write_held_rows(bool with_preview) {
         if (with_preview || !is_preview(c))
             channels.push_back({m_held.data() + m_offsets[c], pixel_bytes,
                                 static_cast<std::ptrdiff_t>(m_spec.scanline_bytes(true))});
-    return m_writer->write_rows(m_spec.height, channels);
+    return write_planes(m_spec.height, channels);
+}
+
+Result<void> SpectralExrOutput::write_planes(int row_count, const std::vector<exr::ChannelRows>& channels) {
+    HostRunner runner(threads(), static_cast<std::size_t>(row_count));
+    return m_writer->write_rows(row_count, channels, &runner);
 }
 
 bool SpectralExrOutput::fail_with(const Error& error) {

@@ -48,6 +48,8 @@ class SpectralExrOutput final : public OIIO::ImageOutput {
     bool drop_stale_preview();
     [[nodiscard]] Result<std::unique_ptr<exr::ExrWriter>> make_writer(bool with_preview) const;
     Result<void> write_held_rows(bool with_preview);
+    /// Packed on the host's threads.
+    Result<void> write_planes(int row_count, const std::vector<exr::ChannelRows>& channels);
     bool fail_with(const Error& error);
 
     bool m_open = false;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <formats/exr/exr_file.h>
 #include <formats/exr/exr_writer.h>
 #include <formats/files/replacement_file.h>
 #include <formats/files/text_file.h>
@@ -6,6 +7,10 @@
 #include <support/exr_files.h>
 
 #include <Imath/half.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfStringAttribute.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -13,8 +18,10 @@
 #include <cstring>
 #include <fstream>
 #include <limits>
+#include <random>
 #include <sys/resource.h>
 #include <sys/stat.h>
+#include <thread>
 #include <unistd.h>
 
 namespace osio::exr {
@@ -91,6 +98,113 @@ TEST(ExrWriter, AnUnfinishedFileLeavesTheOldOneAndNoLitter) {
         EXPECT_EQ(early.error().what, "3 rows were never written");
     }
     EXPECT_EQ(content(path), "the old file");
+}
+
+/// Runs a body on threads of its own.
+class Threads final : public Runner {
+  public:
+    unsigned worker_count() const override { return 3; }
+
+    void run(const std::function<void(unsigned)>& body) override {
+        std::vector<std::jthread> threads;
+        for (unsigned worker = 0; worker < worker_count(); ++worker)
+            threads.emplace_back([&body, worker] { body(worker); });
+    }
+};
+
+/// Channels of every type, with one name too long for a plain header, over a window that starts
+/// anywhere; `noise` does not compress.
+struct Picture {
+    Imf::Header header{Imath::Box2i({-3, 2}, {100, 90}), Imath::Box2i({-5, -9}, {31, 60})};
+    std::vector<OutputChannel> channels{{"T.500,0nm", SampleType::Half},
+                                        {"A", SampleType::Float},
+                                        {"id", SampleType::Uint},
+                                        {"a_long_name_of_more_than_31_letters.T.400,0nm", SampleType::Float}};
+    std::size_t width = 37, height = 70, pixel_bytes = 14;
+    std::vector<std::byte> pixels;  ///< interleaved
+
+    explicit Picture(Imf::Compression compression, bool noise) {
+        header.compression() = compression;
+        header.insert("owner", Imf::StringAttribute("somebody"));
+        std::mt19937 random(3);
+        pixels.resize(width * height * pixel_bytes);
+        for (std::size_t i = 0; i < pixels.size(); ++i)
+            pixels[i] = static_cast<std::byte>(noise ? random() : i / 40 % 7);
+    }
+
+    [[nodiscard]] std::vector<ChannelRows> rows(std::size_t first) const {
+        std::vector<ChannelRows> out;
+        std::size_t offset = first * width * pixel_bytes;
+        for (const OutputChannel& channel : channels) {
+            out.push_back({pixels.data() + offset, static_cast<std::ptrdiff_t>(pixel_bytes),
+                           static_cast<std::ptrdiff_t>(width * pixel_bytes)});
+            offset += sample_bytes(channel.type);
+        }
+        return out;
+    }
+
+    /// A channel's samples, row after row.
+    [[nodiscard]] std::string plane(std::size_t channel) const {
+        const auto from = rows(0)[channel];
+        std::string out;
+        for (std::size_t i = 0; i < width * height; ++i)
+            out.append(reinterpret_cast<const char*>(from.data + i * pixel_bytes),
+                       sample_bytes(channels[channel].type));
+        return out;
+    }
+
+    /// The file that OpenEXR's own writer makes.
+    void write_by_openexr(const std::string& path) {
+        Imf::Header own = header;
+        Imf::FrameBuffer buffer;
+        for (std::size_t c = 0; c < channels.size(); ++c) {
+            const Imf::PixelType type = pixel_type(channels[c].type);
+            own.channels().insert(channels[c].name, Imf::Channel(type));
+            buffer.insert(channels[c].name, Imf::Slice::Make(type, rows(0)[c].data, own.dataWindow(),
+                                                             pixel_bytes, width * pixel_bytes));
+        }
+        Imf::OutputFile file(path.c_str(), own);
+        file.setFrameBuffer(buffer);
+        file.writePixels(static_cast<int>(height));
+    }
+};
+
+/// Whatever rows come at a time, by whatever threads: OpenEXR reads the samples that were given, the
+/// file's bytes do not depend on the way, and the header is the one that OpenEXR writes.
+TEST(ExrWriter, ZipFilesAreThoseOfOpenExr) {
+    const TestFolder folder;
+    const std::string path = folder.path("a.exr"), other = folder.path("b.exr");
+    Threads threads;
+    for (const auto compression : {Imf::ZIP_COMPRESSION, Imf::ZIPS_COMPRESSION})
+        for (const bool noise : {false, true}) {
+            Picture picture(compression, noise);
+            picture.write_by_openexr(other);
+            const std::string expected = content(other);
+            std::string first_way;
+            for (const std::size_t step : {1U, 5U, 16U, 23U, 70U})
+                for (Runner* runner : {static_cast<Runner*>(nullptr), static_cast<Runner*>(&threads)}) {
+                    auto writer = ExrWriter::create(path, picture.header, picture.channels).value();
+                    for (std::size_t row = 0; row < picture.height; row += step) {
+                        const std::size_t count = std::min(step, picture.height - row);
+                        ASSERT_TRUE(writer->write_rows(static_cast<int>(count), picture.rows(row), runner));
+                    }
+                    ASSERT_TRUE(writer->finish());
+                    const std::string bytes = content(path);
+                    if (first_way.empty())
+                        first_way = bytes;
+                    EXPECT_EQ(bytes, first_way) << step << " rows at a time";
+                }
+            for (std::size_t c = 0; c < picture.channels.size(); ++c) {
+                const auto stored = test::read_with_openexr(path, 0, picture.channels[c].name);
+                EXPECT_EQ(std::string(stored.begin(), stored.end()), picture.plane(c));
+            }
+            // Up to the table of chunks; noise is stored as it is, which leaves nothing to differ.
+            const std::size_t table = expected.find("screenWindowWidth") + sizeof("screenWindowWidth");
+            EXPECT_EQ(first_way.substr(0, table + 15), expected.substr(0, table + 15));
+            if (noise) {
+                EXPECT_EQ(first_way, expected);
+            }
+        }
 }
 
 /// Limits how large files of this process may become, and makes the excess an error instead of a

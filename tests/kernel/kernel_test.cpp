@@ -199,7 +199,7 @@ TEST_P(KernelOn, ABandOfWeightZeroIsNotRead) {
     EXPECT_TRUE(std::isfinite(test.run(collapse_run)[2][99]));
 }
 
-TEST_P(KernelOn, StridesAndOtherRowCountsGoThroughTheReference) {
+TEST_P(KernelOn, StridedSamplesAreTheSame) {
     std::mt19937 random(6);
     Case test(random, 300, 4, 0, {SampleType::Float});
     for (BandView& view : test.views)
@@ -211,9 +211,37 @@ TEST_P(KernelOn, StridesAndOtherRowCountsGoThroughTheReference) {
         return copy;
     }();
     expect_same_bits(strided.run(collapse_run), strided.run(collapse_run_reference));
-    for (const std::size_t rows : {1U, 2U, 4U, 6U}) {
-        const Case other(random, 77, 9, 0, {SampleType::Half}, rows);
-        expect_same_bits(other.run(collapse_run), other.run(collapse_run_reference));
+}
+
+/// One output is a luminance, twelve are four lights at once.
+TEST_P(KernelOn, AnyNumberOfOutputsIsTheSame) {
+    std::mt19937 random(7);
+    for (std::size_t rows = 1; rows <= 14; ++rows)
+        for (const std::size_t pixels : {5U, 16U, 31U, 77U, 256U})
+            for (const auto& types : kTypes) {
+                SCOPED_TRACE(testing::Message() << rows << " outputs, " << pixels << " pixels");
+                const Case test(random, pixels, 9, 1, types, rows);
+                expect_same_bits(test.run(collapse_run), test.run(collapse_run_reference));
+            }
+}
+
+/// Samples of a line of mixed types start at any byte.
+TEST_P(KernelOn, SamplesNeedNoAlignment) {
+    std::mt19937 random(11);
+    for (const auto& types : {kTypes[0], kTypes[1], kTypes[2]}) {
+        Case test(random, 101, 6, 0, types);
+        std::vector<std::vector<std::byte>> moved;
+        const Case shifted = [&] {
+            Case copy = test;
+            for (BandView& view : copy.views) {
+                const std::size_t bytes = 101 * sample_bytes(view.type);
+                moved.emplace_back(bytes + 1);
+                std::memcpy(moved.back().data() + 1, view.data, bytes);
+                view.data = moved.back().data() + 1;
+            }
+            return copy;
+        }();
+        expect_same_bits(shifted.run(collapse_run), test.run(collapse_run_reference));
     }
 }
 

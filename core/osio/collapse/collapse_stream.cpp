@@ -3,11 +3,37 @@
 #include <osio/collapse/kernel.h>
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 
 namespace osio {
 
 namespace {
+
+/// Keeps rows for their turn.
+class DirectWorker final : public RowWorker {
+  public:
+    explicit DirectWorker(RowSink& sink) : m_sink(sink) {}
+
+    [[nodiscard]] Result<void> prepare(int first_row, int row_count,
+                                       std::span<const float* const> planes) override {
+        m_first_row = first_row;
+        m_row_count = row_count;
+        m_planes.assign(planes.begin(), planes.end());
+        return {};
+    }
+
+    [[nodiscard]] Result<void> deliver() override {
+        return m_sink.write_rows(m_first_row, m_row_count, m_planes);
+    }
+
+  private:
+    RowSink& m_sink;
+    std::vector<const float*> m_planes;
+    int m_first_row = 0;
+    int m_row_count = 0;
+};
 
 /// What all workers of one collapse share. `counts` belongs to deliver(), one call at a time.
 struct Collapse {
@@ -23,7 +49,7 @@ struct Collapse {
 class Collapser final : public BlockVisitor {
   public:
     explicit Collapser(Collapse& collapse)
-        : m_shared(collapse), m_plan(collapse.plan),
+        : m_shared(collapse), m_plan(collapse.plan), m_worker(collapse.sink.start_worker()),
           m_planes(collapse.plan.weights.rows() + (collapse.has_alpha ? 1 : 0)) {}
 
     void process(const PlanarBlock& block) override {
@@ -43,12 +69,15 @@ class Collapser final : public BlockVisitor {
             encode(pixels);
         m_first_row = std::max(m_shared.rows.first, block.first_row);
         m_row_count = std::min(m_shared.rows.last, block.first_row + block.row_count - 1) - m_first_row + 1;
-        m_counts = count(rows_of(block));
+        const std::vector<const float*> planes = rows_of(block);
+        m_counts = count(planes);
+        m_prepared = m_worker->prepare(m_first_row, m_row_count, planes);
     }
 
-    [[nodiscard]] Result<void> deliver(const PlanarBlock& block) override {
+    [[nodiscard]] Result<void> deliver(const PlanarBlock&) override {
+        OSIO_CHECK_OK(m_prepared);
         m_shared.counts += m_counts;
-        return m_shared.sink.write_rows(m_first_row, m_row_count, rows_of(block));
+        return m_worker->deliver();
     }
 
   private:
@@ -61,22 +90,40 @@ class Collapser final : public BlockVisitor {
         return out;
     }
 
+    /// In integers and short runs, which compilers turn into vectors.
     [[nodiscard]] CollapseCounts count(std::span<const float* const> planes) const {
+        constexpr std::size_t kRun = 1024;
         CollapseCounts counts;
         counts.pixels = static_cast<std::uint64_t>(m_row_count) * m_shared.width;
-        for (std::size_t pixel = 0; pixel < counts.pixels; ++pixel) {
-            bool nan = false, infinite = false, negative = false;
-            for (std::size_t row = 0; row < m_plan.weights.rows(); ++row) {
-                const float value = planes[row][pixel];
-                nan |= std::isnan(value);
-                infinite |= std::isinf(value);
-                negative |= value < 0;
+        std::array<std::uint32_t, kRun> flags;
+        for (std::size_t first = 0; first < counts.pixels; first += kRun) {
+            const std::size_t run = std::min(kRun, counts.pixels - first);
+            flags.fill(0);
+            for (std::size_t row = 0; row < m_plan.weights.rows(); ++row)
+                for (std::size_t i = 0; i < run; ++i)
+                    flags[i] |= oddness(planes[row][first + i]);
+            std::uint32_t nan = 0, infinite = 0, negative = 0;
+            for (std::size_t i = 0; i < run; ++i) {
+                nan += flags[i] & 1;
+                infinite += flags[i] >> 1 & 1;
+                negative += flags[i] >> 2;
             }
             counts.nan += nan;
             counts.infinite += infinite;
             counts.negative += negative;
         }
         return counts;
+    }
+
+    /// 1 for NaN, plus 2 for an infinity, plus 4 for what is below zero.
+    static std::uint32_t oddness(float value) {
+        constexpr std::uint32_t kInfinity = 0x7F800000;
+        const auto bits = std::bit_cast<std::uint32_t>(value);
+        const std::uint32_t magnitude = bits & 0x7FFFFFFF;
+        const std::uint32_t nan = magnitude > kInfinity;
+        const std::uint32_t infinite = magnitude == kInfinity;
+        const std::uint32_t negative = (bits >> 31) & (nan ^ 1) & (magnitude != 0);
+        return nan | infinite << 1 | negative << 2;
     }
 
     void encode(std::size_t pixels) {
@@ -93,6 +140,8 @@ class Collapser final : public BlockVisitor {
 
     Collapse& m_shared;
     const CollapsePlan& m_plan;
+    std::unique_ptr<RowWorker> m_worker;
+    Result<void> m_prepared;
     std::vector<std::vector<float>> m_planes;
     std::vector<float*> m_pointers;
     int m_first_row = 0;
@@ -101,6 +150,10 @@ class Collapser final : public BlockVisitor {
 };
 
 }  // namespace
+
+std::unique_ptr<RowWorker> RowSink::start_worker() {
+    return std::make_unique<DirectWorker>(*this);
+}
 
 CollapseCounts& CollapseCounts::operator+=(const CollapseCounts& other) {
     pixels += other.pixels;

@@ -5,9 +5,23 @@
 #include <osio/collapse/stream.h>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 
 namespace osio {
+
+/// A worker's way to a sink.
+class RowWorker {
+  public:
+    virtual ~RowWorker() = default;
+
+    /// Finished rows, before their turn and beside other workers; the planes live until deliver().
+    [[nodiscard]] virtual Result<void> prepare(int first_row, int row_count,
+                                               std::span<const float* const> planes) = 0;
+
+    /// Hands on what was prepared: one call at a time, in order of rows.
+    [[nodiscard]] virtual Result<void> deliver() = 0;
+};
 
 /// Where finished rows go.
 class RowSink {
@@ -18,6 +32,10 @@ class RowSink {
     /// time, in order of rows.
     [[nodiscard]] virtual Result<void> write_rows(int first_row, int row_count,
                                                   std::span<const float* const> planes) = 0;
+
+    /// For sinks that have work which needs no order, such as compression. By default all is done by
+    /// write_rows().
+    [[nodiscard]] virtual std::unique_ptr<RowWorker> start_worker();
 };
 
 /// What a collapse met, for people to be told. A pixel counts once in each line that fits it.

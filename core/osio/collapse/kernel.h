@@ -19,8 +19,13 @@ namespace osio {
 void collapse_run_reference(std::span<const BandView> bands, const WeightMatrix& weights,
                             std::size_t pixel_count, std::span<float* const> out);
 
-/// The same, in SIMD for contiguous half and float samples of three outputs, on the widest
-/// instruction set of this machine; collapse_run_reference for all else.
+/// The same for the outputs from `first_row` on.
+void collapse_rows_reference(std::span<const BandView> bands, const WeightMatrix& weights,
+                             std::size_t first_row, std::size_t pixel_count, std::span<float* const> out);
+
+/// The same, in SIMD for contiguous half and float samples and any number of outputs, on the widest
+/// instruction set of this machine; by the reference for other samples and for runs shorter than a
+/// few vectors.
 void collapse_run(std::span<const BandView> bands, const WeightMatrix& weights, std::size_t pixel_count,
                   std::span<float* const> out);
 

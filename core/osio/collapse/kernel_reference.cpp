@@ -30,7 +30,12 @@ double sample_at(const BandView& band, std::size_t pixel) {
 
 void collapse_run_reference(std::span<const BandView> bands, const WeightMatrix& weights,
                             std::size_t pixel_count, std::span<float* const> out) {
-    for (std::size_t row = 0; row < weights.rows(); ++row) {
+    collapse_rows_reference(bands, weights, 0, pixel_count, out);
+}
+
+void collapse_rows_reference(std::span<const BandView> bands, const WeightMatrix& weights,
+                             std::size_t first_row, std::size_t pixel_count, std::span<float* const> out) {
+    for (std::size_t row = first_row; row < weights.rows(); ++row) {
         for (std::size_t pixel = 0; pixel < pixel_count; ++pixel) {
             double sum = 0;
             for (std::size_t band = 0; band < bands.size(); ++band) {

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <formats/exr/output_rows.h>
+#include <formats/exr/zip_codec.h>
+
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace osio::exr {
+
+/// Rows on their way into a file: whole chunks packed, and samples of chunks that other rows begin or
+/// end. Reused from block to block.
+struct PackedRows {
+    struct Chunk {
+        int first_row = 0;
+        std::size_t bytes = 0;
+    };
+
+    std::vector<std::uint8_t> head;  ///< samples that continue a chunk begun before
+    int head_rows = 0;
+    std::vector<Chunk> chunks;
+    std::vector<std::uint8_t> packed;  ///< of the chunks, one after the other
+    std::vector<std::uint8_t> tail;    ///< samples that begin a chunk
+    int tail_rows = 0;
+    std::vector<std::uint8_t> samples;  ///< of the chunk in work
+};
+
+/// A scanline file of one part in ZIP or ZIPS: OpenEXR's C++ API writes the header, the chunks are
+/// ours. Packing is for any thread; appending is in the order of rows. Throws std::runtime_error where
+/// the stream does.
+class ZipOutput {
+  public:
+    /// True where the class can write the header's compression.
+    [[nodiscard]] static bool can_write(const Imf::Header& header);
+
+    /// Writes the header and room for the table of chunks.
+    ZipOutput(Imf::OStream& stream, const Imf::Header& header, std::span<const OutputChannel> channels);
+
+    /// Rows of each channel, in the order given to the constructor.
+    void pack(int first_row, int row_count, std::span<const ChannelRows> channels, ZipEncoder& encoder,
+              PackedRows& out) const;
+
+    /// The rows that follow those of the last call.
+    void append(const PackedRows& rows);
+
+    /// Writes the table of chunks; every row must have been appended.
+    void finish();
+
+    /// libdeflate's level for the header's.
+    [[nodiscard]] int level() const { return m_level; }
+
+    [[nodiscard]] int lines_per_chunk() const { return m_lines; }
+
+  private:
+    /// One past the last row of the chunk that holds `row`.
+    [[nodiscard]] int chunk_end(int row) const;
+    void gather(int row, std::span<const ChannelRows> channels, int first_row, std::uint8_t* out) const;
+    void write_chunk(int first_row, std::span<const std::uint8_t> packed);
+
+    Imf::OStream& m_stream;
+    std::vector<std::size_t> m_order;  ///< channels as the file has them, sorted by name
+    std::vector<std::size_t> m_sample_bytes;
+    int m_first_row;
+    int m_end_row;
+    int m_lines;
+    int m_level;
+    std::size_t m_width;
+    std::size_t m_line_bytes = 0;
+    std::uint64_t m_table_position = 0;
+    std::vector<std::uint64_t> m_table;
+    std::vector<std::uint8_t> m_open;  ///< samples of a chunk that is not complete
+    int m_open_rows = 0;
+    int m_next_row;
+    ZipEncoder m_encoder;
+};
+
+}  // namespace osio::exr
