@@ -40,11 +40,12 @@ Imf::Header collapsed_header(const CollapseJob& job) {
         if (!is_structural(a.name()) && !describes_bands(a.name()) && !is_replaced(a.name()))
             out.insert(a.name(), a.attribute());
     const OutputSpace& space = plan.space;
-    out.insert(attribute::kChromaticities,
-               Imf::ChromaticitiesAttribute(
-                   Imf::Chromaticities(v2f(space.red), v2f(space.green), v2f(space.blue), v2f(space.white))));
+    if (is_tristimulus(space.kind))
+        out.insert(attribute::kChromaticities,
+                   Imf::ChromaticitiesAttribute(Imf::Chromaticities(v2f(space.red), v2f(space.green),
+                                                                    v2f(space.blue), v2f(space.white))));
     if (!space.color_space.empty())
-        out.insert(attribute::kColorSpace, Imf::StringAttribute(std::string(space.color_space)));
+        out.insert(attribute::kColorSpace, Imf::StringAttribute(space.color_space));
     out.insert(attribute::kRecipe, Imf::StringAttribute(recipe_text(plan.request)));
     out.insert(attribute::kPlan, Imf::StringAttribute(plan.id));
     if (!job.warnings.empty())

@@ -63,6 +63,13 @@ Json part_json(const exr::ExrPart& part) {
             {"warnings", std::move(warnings)}};
 }
 
+/// What is done to the weights' sums, by the name of its result.
+std::string curve_name(const OutputSpace& space) {
+    if (!is_tristimulus(space.kind))
+        return space.id;
+    return space.transfer == Transfer::Srgb ? "srgb" : "linear";
+}
+
 Json plan_object(const exr::CollapseJob& job) {
     const CollapsePlan& plan = job.plan;
     Json weights = Json::array(), channels = Json::array();
@@ -79,7 +86,7 @@ Json plan_object(const exr::CollapseJob& job) {
             {"quantity", reflectance ? "reflectance" : "radiance"},
             {"to", plan.space.id},
             {"color_space", plan.space.color_space.empty() ? Json(nullptr) : Json(plan.space.color_space)},
-            {"curve", plan.space.transfer == Transfer::Srgb ? "srgb" : "linear"},
+            {"curve", curve_name(plan.space)},
             {"observer", plan.observer.id},
             {"observer_source", plan.observer.source},
             {"illuminant", reflectance ? Json(plan.illuminant->id) : Json(nullptr)},
@@ -88,6 +95,9 @@ Json plan_object(const exr::CollapseJob& job) {
             {"quadrature", plan.quadrature == Quadrature::Sum1nm ? "sum1nm" : "exact"},
             {"extrapolate", extrapolation_name(plan.request.extrapolation)},
             {"exposure", plan.request.exposure_stops},
+            {"white", plan.white},
+            {"adapt",
+             is_adapted(plan.space.kind) ? Json(adaptation_name(plan.request.adaptation)) : Json(nullptr)},
             {"adapted_from", plan.adapted_from ? Json(*plan.adapted_from) : Json(nullptr)},
             {"outputs", plan.outputs},
             {"channel_names", job.channel_names()},

@@ -99,10 +99,16 @@ Result<void> check_grid(const SpectralSet& set, const CollapseRequest& request,
 Result<void> check_names(const CollapseRequest& request) {
     if (request.names == OutputNames::Layout)
         return fail(ErrorCode::Usage,
-                    "names=layout is for bands; with to=" + std::string(request.to->id) + " use rgb or xyz");
-    if (request.names == OutputNames::Xyz && request.to->kind == SpaceKind::Rgb)
-        return fail(ErrorCode::Usage, "names=xyz does not fit to=" + std::string(request.to->id) +
-                                          ", whose values are red, green and blue");
+                    "names=layout is for bands; with to=" + request.to->id + " use rgb or xyz");
+    if (request.names == OutputNames::Xyz && request.to->kind != SpaceKind::Xyz &&
+        request.to->kind != SpaceKind::XyzD65)
+        return fail(ErrorCode::Usage,
+                    "names=xyz does not fit to=" + request.to->id + ", whose values are " +
+                        (request.to->kind == SpaceKind::Rgb ? "red, green and blue"
+                                                            : join(space_outputs(request.to->kind), ", ")));
+    if (request.adaptation != CollapseRequest{}.adaptation && !is_adapted(request.to->kind))
+        return fail(ErrorCode::Usage, "adapt=" + std::string(adaptation_name(request.adaptation)) +
+                                          " does not fit to=" + request.to->id + ", which is not adapted");
     if (!request.white.empty() && request.to->kind == SpaceKind::Xyz)
         return fail(ErrorCode::Usage,
                     "white=" + request.white + " does not fit to=xyz, which is not adapted; use to=xyz_d65");
@@ -135,8 +141,7 @@ class PlanMaker {
             return fail(ErrorCode::Usage,
                         "no space to collapse to was named; use to=" + join(output_space_names(), ", to="));
         m_plan.space = *m_plan.request.to;
-        m_plan.outputs = m_plan.space.kind == SpaceKind::Rgb ? std::vector<std::string>{"R", "G", "B"}
-                                                             : std::vector<std::string>{"X", "Y", "Z"};
+        m_plan.outputs = space_outputs(m_plan.space.kind);
         OSIO_CHECK_OK(check_names(m_plan.request));
         OSIO_CHECK_OK(check_quantity(m_set, m_plan.request));
         m_distinct = distinct(m_plan.bands);
@@ -166,12 +171,18 @@ class PlanMaker {
                      parse_white(m_plan.request.white, m_plan.observer, m_plan.quadrature, m_load_text));
         }
         m_output_from_xyz = Matrix3::diagonal({gain, gain, gain});
-        if (m_plan.space.kind == SpaceKind::Xyz)
+        m_plan.white = white;
+        if (m_plan.space.kind == SpaceKind::Lab && !(white[0] > 0 && white[2] > 0))
+            return fail(ErrorCode::InvalidGrid, "the white has X " + format_double(white[0]) + " and Z " +
+                                                    format_double(white[2]) +
+                                                    ", and Lab divides by them; name another with white=");
+        if (!is_adapted(m_plan.space.kind))
             return {};
         m_plan.adapted_from = white;
         const bool rgb = m_plan.space.kind == SpaceKind::Rgb;
         const Vector3 target = (rgb ? m_plan.space.white : kD65).xyz();
-        m_output_from_xyz = m_output_from_xyz * bradford_adaptation(white, target);
+        OSIO_TRY(const Matrix3 adapt, adaptation_matrix(m_plan.request.adaptation, white, target));
+        m_output_from_xyz = m_output_from_xyz * adapt;
         if (rgb)
             m_output_from_xyz = inverse(xyz_from_rgb(m_plan.space)) * m_output_from_xyz;
         return {};
@@ -232,7 +243,7 @@ class PlanMaker {
         } else {
             text += "much of the weight rests on it,";
             for (std::size_t row = 0; row < share.size(); ++row)
-                text += " " + m_plan.outputs[row] + " " + format_fixed(100 * share[row], 1) + " %";
+                text += " " + m_plan.weighed()[row] + " " + format_fixed(100 * share[row], 1) + " %";
         }
         m_plan.warnings.push_back(text);
     }
@@ -267,9 +278,15 @@ std::vector<double> CollapsePlan::wavelengths_nm() const {
     return out;
 }
 
+std::vector<std::string> CollapsePlan::weighed() const {
+    return is_tristimulus(space.kind) ? outputs : space_outputs(SpaceKind::Xyz);
+}
+
 std::vector<std::string> CollapsePlan::channel_names() const {
     if (request.names == OutputNames::Xyz)
         return {"X", "Y", "Z"};
+    if (request.names == OutputNames::Default && !is_tristimulus(space.kind))
+        return outputs;
     return {"R", "G", "B"};
 }
 

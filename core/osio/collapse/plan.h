@@ -25,18 +25,21 @@ using TextLoader = std::function<Result<std::string>(std::string_view path)>;
 struct CollapsePlan {
     CollapseRequest request;  ///< with the set that was chosen
     OutputSpace space;
-    std::vector<std::string> outputs;  ///< what the rows are: X, Y, Z or R, G, B
+    std::vector<std::string> outputs;  ///< what comes out: R, G, B; X, Y, Z; L*, a*, b*; ...
     std::vector<Band> bands;           ///< by wavelength
-    WeightMatrix weights;              ///< outputs x bands, linear; the space's curve comes after
+    WeightMatrix weights;              ///< outputs x bands, linear; PixelStage has what the space adds
     Observer observer;
     std::optional<Illuminant> illuminant;
     Quadrature quadrature = Quadrature::Sum1nm;
+    Vector3 white{};                         ///< XYZ of the white that values refer to, Y = 1
     std::optional<Vector3> adapted_from;     ///< XYZ of the white that adaptation starts from, Y = 1
     std::vector<double> extrapolated_share;  ///< for each output, share of weight beyond the bands
     std::vector<std::string> warnings;
     std::string id;
 
     [[nodiscard]] std::vector<double> wavelengths_nm() const;
+    /// What the rows of weights give: the outputs, or X, Y, Z where the outputs are made of those.
+    [[nodiscard]] std::vector<std::string> weighed() const;
     /// How the result's channels are called, by the request's `names`.
     [[nodiscard]] std::vector<std::string> channel_names() const;
 };
@@ -45,8 +48,9 @@ struct CollapsePlan {
 ///
 /// Reflectance: X = k sum R S x, k = 1 / sum S y over 360-830 nm whatever the bands cover, so that
 /// the perfect diffuser has Y = 1. Radiance: divided by sum y, so that flat 1 has Y = 1. Spaces
-/// other than xyz are adapted by Bradford from the light's computed white (radiance: from D65,
-/// that is not at all for D65 spaces), or from the request's `white`.
+/// with a white are adapted to it, by the request's `adaptation`, from the light's computed white
+/// (radiance: from D65, that is not at all for D65 spaces), or from the request's `white`. Lab, Luv
+/// and chromaticities refer to that same white, unadapted; their weights are those of X, Y, Z.
 ///
 /// Refuses, before a pixel is read: a reflectance without an illuminant, a radiance with one, bands
 /// wholly outside 360-830 nm, one band with extrapolation zero (a curve of no width), names that do

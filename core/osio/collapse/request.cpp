@@ -16,8 +16,9 @@ constexpr double kMostStops = 100;
 
 constexpr std::string_view kRaw = "raw";
 
-constexpr std::array<RequestOption, 10> kOptions{{
-    {"to", "SPACE", "space to collapse to (list spaces); raw: the bands themselves"},
+constexpr std::array<RequestOption, 11> kOptions{{
+    {"to", "SPACE",
+     "space to collapse to (list spaces; rgb:xr,yr,xg,yg,xb,yb,xw,yw); raw: the bands themselves"},
     {"illuminant", "NAME|FILE.csv", "light on a reflectance (list illuminants)"},
     {"observer", "NAME", "standard observer (list observers); default cie1931"},
     {"part", "N|NAME", "part of a multi-part file, counted from 0"},
@@ -25,6 +26,7 @@ constexpr std::array<RequestOption, 10> kOptions{{
     {"basis", "linear", "how bands become a spectrum; default linear"},
     {"extrapolate", "hold|zero", "the spectrum beyond the end bands; default hold"},
     {"white", "NAME|x,y", "white to adapt from; default: the light's own, D65 for radiance"},
+    {"adapt", "NAME", "none, xyz-scaling, von-kries, bradford (default), cat02 or cat16"},
     {"exposure", "STOPS", "multiplies the result by 2^STOPS"},
     {"names", "rgb|xyz", "channel names of the result; in raw mode: layout keeps the file's"},
 }};
@@ -103,6 +105,8 @@ Result<void> set_option(CollapseRequest& request, std::string_view key, std::str
         OSIO_TRY(request.extrapolation, kExtrapolations.parse(key, value));
     } else if (key == "names") {
         OSIO_TRY(request.names, kNames.parse(key, value));
+    } else if (key == "adapt") {
+        OSIO_TRY(request.adaptation, find_adaptation(value));
     } else if (key == "illuminant") {
         request.illuminant = value;
     } else if (key == "part") {
@@ -122,7 +126,7 @@ Result<void> set_option(CollapseRequest& request, std::string_view key, std::str
 }
 
 std::string recipe_text(const CollapseRequest& request) {
-    std::string out = "to=" + std::string(request.to ? request.to->id : kRaw);
+    std::string out = "to=" + (request.to ? request.to->id : std::string(kRaw));
     const auto add = [&out](std::string_view key, std::string_view value) {
         if (!value.empty())
             out += "&" + std::string(key) + "=" + std::string(value);
@@ -134,6 +138,7 @@ std::string recipe_text(const CollapseRequest& request) {
     add("basis", basis_name(request.basis));
     add("extrapolate", extrapolation_name(request.extrapolation));
     add("white", request.white);
+    add("adapt", adaptation_name(request.adaptation));
     add("exposure", format_double(request.exposure_stops));
     add("names", kNames.name(request.names));
     return out;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osio/base/result.h>
+#include <osio/colour/adaptation.h>
 #include <osio/colour/rgb_space.h>
 #include <osio/spectra/basis.h>
 
@@ -31,6 +32,7 @@ struct CollapseRequest {
     Basis basis = Basis::Linear;
     Extrapolation extrapolation = Extrapolation::Hold;
     std::string white;  ///< an illuminant's name, a .csv or "x,y"; empty: see docs
+    Adaptation adaptation = Adaptation::Bradford;
     double exposure_stops = 0;
     OutputNames names = OutputNames::Default;
 };
