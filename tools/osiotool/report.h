@@ -2,9 +2,13 @@
 #pragma once
 
 #include <formats/exr/collapse_job.h>
+#include <formats/exr/colour_image.h>
 #include <formats/exr/exr_file.h>
 
+#include <osio/base/value_statistics.h>
 #include <osio/collapse/collapse_stream.h>
+#include <osio/colour/cct.h>
+#include <osio/colour/photometry.h>
 
 #include <cstdint>
 #include <string>
@@ -24,6 +28,41 @@ struct CollapseOutcome {
     std::uint64_t clipped_pixels = 0;   ///< outside 0 to 1 in an integer
     double seconds = 0;
 };
+
+/// What a comparison found.
+struct DifferenceOutcome {
+    const exr::ColourImage& a;
+    const exr::ColourImage& b;
+    DifferenceCounts counts;
+    std::string verdict;  ///< PASS, WARNING, FAILURE; empty where nothing was to be judged
+};
+
+[[nodiscard]] std::string difference_text(const DifferenceOutcome& outcome);
+[[nodiscard]] std::string difference_json(const DifferenceOutcome& outcome);
+
+/// What a photometry of an image found; luminances in cd/m2.
+struct PhotometryOutcome {
+    std::string input;
+    std::string set;
+    ValueStatistics luminance;
+    double scotopic_mean = 0;
+    double radiance_mean = 0;  ///< W/(sr m2) over 360-830 nm
+    std::vector<std::string> warnings;
+};
+
+[[nodiscard]] std::string photometry_text(const PhotometryOutcome& outcome);
+[[nodiscard]] std::string photometry_json(const PhotometryOutcome& outcome);
+
+/// What is known of a light: efficacies, white, and colour temperature where it has one.
+struct LightOutcome {
+    Illuminant light;
+    LightPhotometry photometry;
+    Chromaticity xy;
+    std::optional<ColourTemperature> temperature;
+};
+
+[[nodiscard]] std::string light_text(const LightOutcome& outcome);
+[[nodiscard]] std::string light_json(const LightOutcome& outcome);
 
 [[nodiscard]] std::string info_text(const exr::ExrFile& file);
 [[nodiscard]] std::string info_json(const exr::ExrFile& file);
