@@ -52,14 +52,15 @@ TEST(GoldenPhotometry, WeightsOfBandsAtOneNanometre) {
 }
 
 TEST(GoldenPhotometry, LuminanceIsTheYOfAPlanTimesThatOfFlatOne) {
-    const double flat = photometry_of(find_illuminant("E").value().power).luminous / 100;
     Bound bound("luminance weights against Y", 1e-12);
     for (const auto& grid :
          {steps(400, 10, 700), {400.0, 500.0, 500.0, 650.0}, steps(500, 0.25, 520), {555.0}}) {
         for (const char* request : {"to=xyz", "to=xyz&exposure=2"}) {
             const auto plan = plan_of(set_of(Family::S0, grid), request).value();
-            if (plan.quadrature != Quadrature::Sum1nm)
-                continue;
+            NmSamples ones{};
+            ones.fill(1);
+            const double flat =
+                kLuminousEfficacyLmPerW * integral(ones, photopic_efficiency(), plan.quadrature);
             const WeightMatrix weights = photometric_weights(plan);
             for (std::size_t band = 0; band < plan.bands.size(); ++band)
                 bound.see_absolute(weights.at(0, band) / flat, plan.weights.at(1, band), request);
