@@ -56,7 +56,7 @@ Imf::Header collapsed_header(const CollapseJob& job) {
                    Imf::ChromaticitiesAttribute(Imf::Chromaticities(v2f(space.red), v2f(space.green),
                                                                     v2f(space.blue), v2f(space.white))));
     if (!space.color_space.empty())
-        out.insert(attribute::kColorSpace, Imf::StringAttribute(std::string(space.color_space)));
+        out.insert(attribute::kColorSpace, Imf::StringAttribute(space.color_space));
     out.insert(attribute::kRecipe, Imf::StringAttribute(recipe_text(plan.request)));
     out.insert(attribute::kPlan, Imf::StringAttribute(plan.id));
     if (!job.warnings.empty())

@@ -133,9 +133,13 @@ class Reference(OsioCase):
         self.names(self.keys_of(self.osiotool_json("plan", "shot.exr", *words)))
         self.names(self.keys_of(self.osiotool_json("verify", "shot.exr")))
         self.names(self.keys_of(self.osiotool_json("collapse", "shot.exr", "o.exr", *words)))
+        self.names(self.keys_of(self.osiotool_json("difference", "o.exr", "shot.exr", "--illuminant", "A")))
+        self.names(self.keys_of(self.osiotool_json("photometry", "--illuminant", "A")))
+        self.write_exr("radiance.exr", self.bands([450, 550, 650], prefix="S0"))
+        self.names(self.keys_of(self.osiotool_json("photometry", "radiance.exr")))
 
     def test_every_option(self):
-        for command in ("info", "collapse", "plan", "verify"):
+        for command in ("info", "collapse", "plan", "verify", "difference", "photometry"):
             text = self.osiotool(command, "--help").stdout
             self.names(set(re.findall(r"^  --?([a-z][a-z-]*)", text, re.M)) - {"h"})
 

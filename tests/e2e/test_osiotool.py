@@ -136,7 +136,7 @@ class Plan(OsioCase):
         for words in ("recipe       to=lin_rec709&illuminant=D65", "CIE 15:2018 D65 table",
                       "CIE 1931 2 degree standard colorimetric observer", "sprague basis, CIE 15 sum at 1 nm",
                       "reflectance counts as samples",
-                      "extrapolated R", "T.420nm", "Bradford from XYZ"):
+                      "extrapolated R", "T.420nm", "bradford from XYZ"):
             self.assertIn(words, text)
 
     def test_much_extrapolation_is_a_warning_by_output(self):

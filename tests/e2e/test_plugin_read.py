@@ -205,7 +205,7 @@ class Collapsed(OsioCase):
         spec, pixels = self.read(f"{self.path('a.exr')}?{query}")
         recipe = spec.get_string_attribute("spectral:recipe")
         self.assertEqual(recipe, "to=acescg&illuminant=FL11&observer=cie1931&set=T&basis=auto"
-                                 "&extrapolate=hold&scale=relative&exposure=0.5")
+                                 "&extrapolate=hold&scale=relative&adapt=bradford&exposure=0.5")
         again, same = self.read(f"{self.path('a.exr')}?{recipe}")
         self.assertTrue(np.array_equal(pixels, same))
         self.assertEqual(again.get_string_attribute("spectral:plan"),

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <osio/colour/adaptation.h>
 #include <osio/colour/illuminant.h>
 #include <osio/colour/rgb_space.h>
 
@@ -68,24 +69,26 @@ TEST(GoldenColour, PrimaryMatricesAreExact) {
     }
 }
 
-TEST(GoldenColour, BradfordMatricesAreExact) {
+TEST(GoldenColour, AdaptationMatricesAreExact) {
     std::map<std::string, Vector3> whites;
     for (const auto& row : Csv(golden("white_constants.csv")).rows)
         whites[row.at("white")] = {number(row, "X"), number(row, "Y"), number(row, "Z")};
-    Bound bound("absolute error of Bradford matrices against exact rationals", 4e-15);
+    Bound bound("absolute error of adaptation matrices against exact rationals", 4e-15);
     for (const auto& row : Csv(golden("cat_matrices.csv")).rows)
-        if (row.at("cat") == "Bradford")
-            see_matrix(bound,
-                       bradford_adaptation(whites.at(row.at("from_white")), whites.at(row.at("to_white"))),
-                       matrix_of(row), row.at("from_white") + " to " + row.at("to_white"));
+        see_matrix(bound,
+                   adaptation_matrix(find_adaptation(row.at("cat")).value(), whites.at(row.at("from_white")),
+                                     whites.at(row.at("to_white")))
+                       .value(),
+                   matrix_of(row), row.at("cat") + " " + row.at("from_white") + " to " + row.at("to_white"));
 }
 
 TEST(GoldenColour, NominalWhitesAreTheStandards) {
     Bound bound("absolute error of white constants", 1e-15);
     for (const auto& row : Csv(golden("white_constants.csv")).rows) {
-        if (row.at("white") != "D65" && row.at("white") != "ACES")
+        const std::map<std::string, Chromaticity> known{{"D65", kD65}, {"D50", kD50}, {"ACES", kAcesWhite}};
+        if (!known.contains(row.at("white")))
             continue;
-        const Vector3 white = (row.at("white") == "D65" ? kD65 : kAcesWhite).xyz();
+        const Vector3 white = known.at(row.at("white")).xyz();
         bound.see_absolute(white[0], number(row, "X"), row.at("white"));
         bound.see_absolute(white[2], number(row, "Z"), row.at("white"));
     }

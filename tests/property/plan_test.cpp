@@ -195,7 +195,8 @@ TEST(Plan, AStatedWhiteBecomesTheSpacesWhite) {
     // A radiance whose XYZ is A's white: solve for it in weights instead of spectra.
     const auto xyz = plan_of(set, "to=xyz").value();
     const Vector3 white = white_point(find_illuminant("A").value(), find_observer("cie1931").value()).value();
-    const Matrix3 to_acescg = inverse(xyz_from_acescg) * bradford_adaptation(white, kAcesWhite.xyz());
+    const Matrix3 to_acescg =
+        inverse(xyz_from_acescg) * adaptation_matrix(Adaptation::Bradford, white, kAcesWhite.xyz()).value();
     for (std::size_t band = 0; band < plan.bands.size(); ++band) {
         const Vector3 expected =
             to_acescg * Vector3{xyz.weights.at(0, band), xyz.weights.at(1, band), xyz.weights.at(2, band)};

@@ -4,6 +4,8 @@
 
 #include <support/sets.h>
 
+#include <map>
+
 namespace osio::test {
 namespace {
 
@@ -19,12 +21,13 @@ TEST(Request, ARecipeReadsBackAsTheSameRequest) {
           "to=xyz_d65&names=xyz&set=left.T&part=beauty&extrapolate=zero&observer=CIE1964&illuminant=FL11",
           "to=luminance&scale=photometric&basis=bins-corrected&filter=a.csv&filter=b.csv,c.csv&filter-"
           "normalise=1",
-          "to=display&display=panel.csv&illuminant=D(6200),blackbody(3200)", "to=raw&names=layout"}) {
+          "to=display&display=panel.csv&illuminant=D(6200)", "to=raw&names=layout", "to=lab&illuminant=A", "to=xyY", "to=acescg&illuminant=A&adapt=CAT16",
+          "to=rgb:0.64,0.33,0.3,0.6,0.15,0.06,0.3127,0.329&illuminant=A"}) {
         const std::string once = recipe_text(request_of(text));
         EXPECT_EQ(recipe_text(request_of(once)), once) << text;
     }
     EXPECT_EQ(recipe_text(request_of("to=srgb&illuminant=A")),
-              "to=srgb&illuminant=A&observer=cie1931&basis=auto&extrapolate=hold&scale=relative&exposure=0");
+              "to=srgb&illuminant=A&observer=cie1931&basis=auto&extrapolate=hold&scale=relative&adapt=bradford&exposure=0");
 }
 
 TEST(Request, MistypedWordsAreAnsweredWithTheNearest) {
@@ -38,6 +41,7 @@ TEST(Request, MistypedWordsAreAnsweredWithTheNearest) {
     EXPECT_EQ(error_of("extrapolate", "hodl"), "extrapolate \"hodl\" is unknown; did you mean \"hold\"?");
     EXPECT_EQ(error_of("basis", "lineaar"), "no basis is called \"lineaar\"; did you mean \"linear\"?");
     EXPECT_EQ(error_of("names", "rbg"), "names \"rbg\" is unknown; did you mean \"rgb\"?");
+    EXPECT_EQ(error_of("adapt", "cat03"), "no adaptation is called \"cat03\"; did you mean \"cat02\"?");
     EXPECT_EQ(error_of("exposure", "bright"),
               "exposure \"bright\" is no number of stops between -100 and 100");
     EXPECT_EQ(error_of("exposure", "1e9"), "exposure \"1e9\" is no number of stops between -100 and 100");
@@ -50,6 +54,25 @@ TEST(Request, EverySpaceIsKnownByItsIdAndItsAliasesInAnyCase) {
             if (!alias.empty()) {
                 EXPECT_EQ(find_output_space(to_lower(alias))->id, space.id) << alias;
             }
+    }
+}
+
+TEST(Request, ACustomSpaceIsTheSpaceOfItsChromaticities) {
+    const auto custom = find_output_space("RGB: 0.64, 0.33, .3, 0.6, 0.150, 6e-2, 0.3127, 0.3290").value();
+    EXPECT_EQ(custom.id, "rgb:0.64,0.33,0.3,0.6,0.15,0.06,0.3127,0.329");
+    EXPECT_EQ(xyz_from_rgb(custom), xyz_from_rgb(find_output_space("lin_rec709").value()));
+    EXPECT_EQ(custom.color_space, "");
+    for (const auto& [text, why] : std::map<std::string, std::string>{
+             {"rgb:0.64,0.33", "has 2 numbers"},
+             {"rgb:0.64,0.33,0.3,0.6,0.15,red,0.3127,0.329", "holds \"red\", no chromaticity"},
+             {"rgb:64,0.33,0.3,0.6,0.15,0.06,0.3127,0.329", "holds \"64\", no chromaticity"},
+             {"rgb:0.64,0.33,0.3,0.6,0.15,0.06,0.3127,0", "has a white that is not above 0"},
+             {"rgb:0.1,0.1,0.2,0.2,0.3,0.3,0.3127,0.329", "has primaries on one line"},
+             {"rgb:0.7,0.3,0.1,0.3,0.15,0.06,0.4,0.3", "has a white on the line between two primaries"}}) {
+        const auto refused = find_output_space(text);
+        ASSERT_FALSE(refused) << text;
+        EXPECT_EQ(refused.error().code, ErrorCode::Usage);
+        EXPECT_NE(refused.error().text().find(why), std::string::npos) << refused.error().text();
     }
 }
 

@@ -36,11 +36,10 @@ TextTable observers() {
 TextTable spaces() {
     TextTable table({{"space"}, {"oiio:ColorSpace"}, {"also called"}});
     for (const OutputSpace& space : output_spaces()) {
-        std::string aliases(space.aliases);
+        std::string aliases = space.aliases;
         for (auto at = aliases.find('|'); at != std::string::npos; at = aliases.find('|', at))
             aliases.replace(at, 1, ", ");
-        table.add({std::string(space.id), space.color_space.empty() ? "none" : std::string(space.color_space),
-                   aliases});
+        table.add({space.id, space.color_space.empty() ? "none" : space.color_space, aliases});
     }
     return table;
 }

@@ -5,6 +5,7 @@
 
 #include <osio/base/result.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -47,6 +48,29 @@ struct VerifyOptions {
     bool json = false;
 };
 
+struct DifferenceOptions {
+    std::string a;
+    std::string b;
+    RequestWords request;
+    std::string map;                  ///< .exr of differences; empty: none
+    std::optional<double> fail;       ///< CIEDE2000 beyond which a pixel fails
+    double fail_percent = 0;          ///< of pixels that may fail
+    std::optional<double> hard_fail;  ///< beyond which one pixel is enough
+    std::optional<double> warn;
+    unsigned threads = 0;
+    bool quiet = false;
+    bool json = false;
+};
+
+struct PhotometryOptions {
+    std::string input;   ///< empty: a light
+    std::string output;  ///< .exr of luminance; empty: none
+    RequestWords request;
+    unsigned threads = 0;
+    bool quiet = false;
+    bool json = false;
+};
+
 struct ListOptions {
     std::string what;  ///< illuminants, observers, spaces, bases
 };
@@ -55,6 +79,8 @@ struct ListOptions {
 [[nodiscard]] Result<ExitCode> run_plan(const PlanOptions& options);
 [[nodiscard]] Result<ExitCode> run_collapse(const CollapseOptions& options);
 [[nodiscard]] Result<ExitCode> run_verify(const VerifyOptions& options);
+[[nodiscard]] Result<ExitCode> run_difference(const DifferenceOptions& options);
+[[nodiscard]] Result<ExitCode> run_photometry(const PhotometryOptions& options);
 [[nodiscard]] Result<ExitCode> run_list(const ListOptions& options);
 [[nodiscard]] Result<ExitCode> run_doctor();
 

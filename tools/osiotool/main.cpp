@@ -12,6 +12,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 #include <functional>
 
@@ -20,9 +21,12 @@ namespace osio::tool {
 namespace {
 
 /// One option for each word of a request, so that the command line and queries never differ.
-void add_request_options(CLI::App& command, RequestWords& words) {
+void add_request_options(CLI::App& command, RequestWords& words,
+                         const std::vector<std::string>& without = {}) {
     for (const RequestOption& option : request_options()) {
         const std::string key(option.key);
+        if (std::find(without.begin(), without.end(), key) != without.end())
+            continue;
         if (option.value.empty()) {
             command
                 .add_flag_callback(
@@ -54,6 +58,8 @@ class CommandLine {
         add_collapse();
         add_plan();
         add_verify();
+        add_difference();
+        add_photometry();
         add_list();
         add("doctor", "tell whether OpenImageIO sees our plugins, and if not, why",
             [] { return run_doctor(); });
@@ -138,6 +144,40 @@ class CommandLine {
         command->add_flag("--json", m_verify.json, "as JSON");
     }
 
+    void add_difference() {
+        CLI::App* const command = add("difference", "colour difference CIEDE2000 between two images",
+                                      [this] { return run_difference(m_difference); });
+        command->add_option("a", m_difference.a, "spectral, RGB or XYZ OpenEXR file")->required();
+        command->add_option("b", m_difference.b, "the same")->required();
+        add_request_options(*command, m_difference.request, {"to", "names", "adapt", "display", "scale"});
+        command->add_option("--map", m_difference.map, "writes the difference of every pixel")
+            ->type_name("FILE.exr");
+        command->add_option("--fail", m_difference.fail, "a pixel beyond this fails: exit code 1")
+            ->type_name("DE");
+        command->add_option("--failpercent", m_difference.fail_percent, "so many may; default 0")
+            ->type_name("PERCENT");
+        command->add_option("--hardfail", m_difference.hard_fail, "no pixel may be beyond this")
+            ->type_name("DE");
+        command->add_option("--warn", m_difference.warn, "a pixel beyond this is worth a word")
+            ->type_name("DE");
+        command->add_option("--threads", m_difference.threads, "default: one a processor")->type_name("N");
+        command->add_flag("--quiet", m_difference.quiet, "no warnings, no progress");
+        command->add_flag("--json", m_difference.json, "as JSON");
+    }
+
+    void add_photometry() {
+        CLI::App* const command = add("photometry", "luminance of a radiance image, or efficacy of a light",
+                                      [this] { return run_photometry(m_photometry); });
+        command->add_option("input", m_photometry.input, "spectral OpenEXR file; none: --illuminant");
+        command->add_option("output", m_photometry.output, "luminance image, .exr");
+        add_request_options(
+            *command, m_photometry.request,
+            {"to", "names", "adapt", "observer", "white", "display", "scale", "filter-normalise"});
+        command->add_option("--threads", m_photometry.threads, "default: one a processor")->type_name("N");
+        command->add_flag("--quiet", m_photometry.quiet, "no warnings, no progress");
+        command->add_flag("--json", m_photometry.json, "as JSON");
+    }
+
     void add_list() {
         CLI::App* const command = add("list", "names that options take", [this] { return run_list(m_list); });
         command->add_option("what", m_list.what, "illuminants, observers, spaces or bases")->required();
@@ -173,6 +213,8 @@ class CommandLine {
     CollapseOptions m_collapse;
     PlanOptions m_plan;
     VerifyOptions m_verify;
+    DifferenceOptions m_difference;
+    PhotometryOptions m_photometry;
     ListOptions m_list;
 };
 

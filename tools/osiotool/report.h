@@ -3,10 +3,14 @@
 
 #include <formats/exr/chunk_map.h>
 #include <formats/exr/collapse_job.h>
+#include <formats/exr/colour_image.h>
 #include <formats/exr/exr_file.h>
 #include <formats/exr/soundness.h>
 
+#include <osio/base/value_statistics.h>
 #include <osio/collapse/collapse_stream.h>
+#include <osio/colour/cct.h>
+#include <osio/colour/photometry.h>
 
 #include <cstdint>
 #include <memory>
@@ -42,6 +46,41 @@ struct FileSoundness {
     /// "own", "foreign", "none"; "unknown" without a header.
     [[nodiscard]] std::string_view checksum() const;
 };
+
+/// What a comparison found.
+struct DifferenceOutcome {
+    const exr::ColourImage& a;
+    const exr::ColourImage& b;
+    DifferenceCounts counts;
+    std::string verdict;  ///< PASS, WARNING, FAILURE; empty where nothing was to be judged
+};
+
+[[nodiscard]] std::string difference_text(const DifferenceOutcome& outcome);
+[[nodiscard]] std::string difference_json(const DifferenceOutcome& outcome);
+
+/// What a photometry of an image found; luminances in cd/m2.
+struct PhotometryOutcome {
+    std::string input;
+    std::string set;
+    ValueStatistics luminance;
+    double scotopic_mean = 0;
+    double radiance_mean = 0;  ///< W/(sr m2) over 360-830 nm
+    std::vector<std::string> warnings;
+};
+
+[[nodiscard]] std::string photometry_text(const PhotometryOutcome& outcome);
+[[nodiscard]] std::string photometry_json(const PhotometryOutcome& outcome);
+
+/// What is known of a light: efficacies, white, and colour temperature where it has one.
+struct LightOutcome {
+    Illuminant light;
+    LightPhotometry photometry;
+    Chromaticity xy;
+    std::optional<ColourTemperature> temperature;
+};
+
+[[nodiscard]] std::string light_text(const LightOutcome& outcome);
+[[nodiscard]] std::string light_json(const LightOutcome& outcome);
 
 [[nodiscard]] std::string info_text(const exr::ExrFile& file);
 [[nodiscard]] std::string info_json(const exr::ExrFile& file);

@@ -63,6 +63,13 @@ Json part_json(const exr::ExrPart& part) {
             {"warnings", std::move(warnings)}};
 }
 
+/// What is done to the weights' sums, by the name of its result.
+std::string curve_name(const OutputSpace& space) {
+    if (!is_tristimulus(space.kind))
+        return space.id;
+    return space.transfer == Transfer::Srgb ? "srgb" : "linear";
+}
+
 Json plan_object(const exr::CollapseJob& job) {
     const CollapsePlan& plan = job.plan;
     Json weights = Json::array(), channels = Json::array();
@@ -82,7 +89,7 @@ Json plan_object(const exr::CollapseJob& job) {
             {"quantity", reflectance ? "reflectance" : "radiance"},
             {"to", plan.space.id},
             {"color_space", plan.space.color_space.empty() ? Json(nullptr) : Json(plan.space.color_space)},
-            {"curve", plan.space.transfer == Transfer::Srgb ? "srgb" : "linear"},
+            {"curve", curve_name(plan.space)},
             {"observer", plan.observer.id},
             {"observer_source", plan.observer.source},
             {"illuminant", reflectance ? Json(plan.illuminant->id) : Json(nullptr)},
@@ -95,6 +102,9 @@ Json plan_object(const exr::CollapseJob& job) {
             {"extrapolate", extrapolation_name(plan.request.extrapolation)},
             {"scale", scale_name(plan.request.scale)},
             {"exposure", plan.request.exposure_stops},
+            {"white", plan.white},
+            {"adapt",
+             is_adapted(plan.space.kind) ? Json(adaptation_name(plan.request.adaptation)) : Json(nullptr)},
             {"adapted_from", plan.adapted_from ? Json(*plan.adapted_from) : Json(nullptr)},
             {"outputs", plan.outputs},
             {"channel_names", job.channel_names()},
@@ -138,6 +148,64 @@ std::string dump(const Json& json) {
 }
 
 }  // namespace
+
+std::string difference_json(const DifferenceOutcome& outcome) {
+    const ValueStatistics& delta = outcome.counts.delta_e;
+    Json warnings = Json::array();
+    for (const exr::ColourImage* image : {&outcome.a, &outcome.b})
+        for (const std::string& warning : image->warnings)
+            warnings.push_back(image->file->path() + ": " + warning);
+    return dump({{"a", outcome.a.file->path()},
+                 {"b", outcome.b.file->path()},
+                 {"a_meaning", outcome.a.meaning},
+                 {"b_meaning", outcome.b.meaning},
+                 {"pixels", delta.count() + delta.undefined_count()},
+                 {"undefined_pixels", delta.undefined_count()},
+                 {"mean", delta.mean()},
+                 {"percentile_95", delta.percentile(95)},
+                 {"percentile_99", delta.percentile(99)},
+                 {"max", delta.maximum()},
+                 {"max_pixel", outcome.counts.largest_at},
+                 {"failing_pixels", outcome.counts.beyond_fail},
+                 {"warning_pixels", outcome.counts.beyond_warn},
+                 {"verdict", outcome.verdict.empty() ? Json(nullptr) : Json(outcome.verdict)},
+                 {"warnings", std::move(warnings)}});
+}
+
+std::string photometry_json(const PhotometryOutcome& outcome) {
+    const ValueStatistics& l = outcome.luminance;
+    return dump(
+        {{"input", outcome.input},
+         {"set", outcome.set},
+         {"pixels", l.count() + l.undefined_count()},
+         {"undefined_pixels", l.undefined_count()},
+         {"luminance_mean", l.mean()},
+         {"luminance_min", l.minimum()},
+         {"luminance_max", l.maximum()},
+         {"luminance_percentiles",
+          {{"1", l.percentile(1)},
+           {"5", l.percentile(5)},
+           {"50", l.percentile(50)},
+           {"95", l.percentile(95)},
+           {"99", l.percentile(99)}}},
+         {"scotopic_mean", outcome.scotopic_mean},
+         {"sp_ratio", l.mean() != 0 ? Json(outcome.scotopic_mean / l.mean()) : Json(nullptr)},
+         {"radiance_mean", outcome.radiance_mean},
+         {"efficacy", outcome.radiance_mean != 0 ? Json(l.mean() / outcome.radiance_mean) : Json(nullptr)},
+         {"warnings", outcome.warnings}});
+}
+
+std::string light_json(const LightOutcome& outcome) {
+    const auto& t = outcome.temperature;
+    return dump({{"illuminant", outcome.light.id},
+                 {"illuminant_source", outcome.light.source},
+                 {"efficacy", outcome.photometry.efficacy()},
+                 {"scotopic_efficacy", outcome.photometry.scotopic_efficacy()},
+                 {"sp_ratio", outcome.photometry.sp_ratio()},
+                 {"xy", {outcome.xy.x, outcome.xy.y}},
+                 {"cct", t ? Json(t->cct_k) : Json(nullptr)},
+                 {"duv", t ? Json(t->duv) : Json(nullptr)}});
+}
 
 std::string info_json(const exr::ExrFile& file) {
     Json parts = Json::array();

@@ -140,16 +140,17 @@ std::string plan_text(const exr::CollapseJob& job) {
         out += fmt::format("scale        {}\n", scale_name(plan.request.scale));
     if (plan.adapted_from) {
         const Vector3& white = *plan.adapted_from;
-        out += fmt::format("adaptation   Bradford from XYZ {:.6f} {:.6f} {:.6f}\n", white[0], white[1],
-                           white[2]);
+        out += fmt::format("adaptation   {} from XYZ {:.6f} {:.6f} {:.6f}\n",
+                           adaptation_name(plan.request.adaptation), white[0], white[1], white[2]);
     }
+    const std::vector<std::string> weighed = plan.weighed();
     out += "extrapolated";
     for (std::size_t row = 0; row < plan.outputs.size(); ++row)
-        out += fmt::format(" {} {}", plan.outputs[row], percent(plan.extrapolated_share[row]));
+        out += fmt::format(" {} {}", weighed[row], percent(plan.extrapolated_share[row]));
     out += " of each output's weight\n";
 
     std::vector<TextTable::Column> columns{{"channel"}, {"nm", TextTable::Align::Right}};
-    for (const std::string& output : plan.outputs)
+    for (const std::string& output : weighed)
         columns.push_back({output, TextTable::Align::Right});
     TextTable table(columns);
     for (std::size_t band = 0; band < plan.bands.size(); ++band) {

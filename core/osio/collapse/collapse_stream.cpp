@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <osio/collapse/collapse_stream.h>
 #include <osio/collapse/kernel.h>
+#include <osio/collapse/pixel_stage.h>
 
 #include <algorithm>
 #include <array>
@@ -49,7 +50,8 @@ struct Collapse {
 class Collapser final : public BlockVisitor {
   public:
     explicit Collapser(Collapse& collapse)
-        : m_shared(collapse), m_plan(collapse.plan), m_worker(collapse.sink.start_worker()),
+        : m_shared(collapse), m_plan(collapse.plan), m_stage(collapse.plan.space, collapse.plan.white),
+          m_worker(collapse.sink.start_worker()),
           m_planes(collapse.plan.weights.rows() + (collapse.has_alpha ? 1 : 0)) {}
 
     void process(const PlanarBlock& block) override {
@@ -65,8 +67,9 @@ class Collapser final : public BlockVisitor {
         if (m_shared.has_alpha)
             for (std::size_t pixel = 0; pixel < pixels; ++pixel)
                 m_planes.back()[pixel] = static_cast<float>(sample_at(block.planes.back(), pixel));
-        if (m_plan.space.transfer == Transfer::Srgb)
-            encode(pixels);
+        if (m_stage.needed())
+            m_stage.apply(std::span(m_pointers).first<3>(),
+                          m_shared.has_alpha ? m_planes.back().data() : nullptr, pixels);
         m_first_row = std::max(m_shared.rows.first, block.first_row);
         m_row_count = std::min(m_shared.rows.last, block.first_row + block.row_count - 1) - m_first_row + 1;
         const std::vector<const float*> planes = rows_of(block);
@@ -110,7 +113,7 @@ class Collapser final : public BlockVisitor {
             }
             counts.nan += nan;
             counts.infinite += infinite;
-            counts.negative += negative;
+            counts.negative += m_stage.negative_is_outside() ? negative : 0;
         }
         return counts;
     }
@@ -126,20 +129,9 @@ class Collapser final : public BlockVisitor {
         return nan | infinite << 1 | negative << 2;
     }
 
-    void encode(std::size_t pixels) {
-        for (std::size_t row = 0; row < m_plan.weights.rows(); ++row) {
-            for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
-                float& value = m_planes[row][pixel];
-                const double alpha = m_shared.has_alpha ? static_cast<double>(m_planes.back()[pixel]) : 1;
-                const bool associated = alpha > 0 && alpha != 1;
-                const double linear = static_cast<double>(value) / (associated ? alpha : 1);
-                value = static_cast<float>(srgb_encode(linear) * (associated ? alpha : 1));
-            }
-        }
-    }
-
     Collapse& m_shared;
     const CollapsePlan& m_plan;
+    PixelStage m_stage;
     std::unique_ptr<RowWorker> m_worker;
     Result<void> m_prepared;
     std::vector<std::vector<float>> m_planes;

@@ -3,6 +3,8 @@
 #include <osio/base/text.h>
 #include <osio/collapse/plan.h>
 #include <osio/collapse/plan_checks.h>
+#include <osio/colour/adaptation.h>
+#include <osio/colour/photometric_constants.h>
 
 #include <array>
 #include <cmath>
@@ -11,11 +13,6 @@
 namespace osio {
 
 namespace {
-
-/// Luminous efficacy of 555 nm and of 507 nm light, as CIE's tables of V and V' are normalised:
-/// Kcd = 683 lm/W at 540 THz is exact (SI); K'm = 1700 lm/W (ISO/CIE 23539, rounded).
-constexpr double kPhotopicEfficacyLmPerW = 683;
-constexpr double kScotopicEfficacyLmPerW = 1700;
 
 /// Below this share of a light's power seen by an observer (an ultraviolet lamp, say) 1 / sum is noise.
 constexpr double kSmallestSeenShare = 1e-9;
@@ -85,10 +82,7 @@ class PlanMaker {
         OSIO_CHECK_OK(check_request(m_plan.request));
         OSIO_CHECK_OK(check_quantity(m_set, m_plan.request));
         m_plan.space = *m_plan.request.to;
-        const SpaceKind kind = m_plan.space.kind;
-        m_plan.outputs = is_rgb(kind)                   ? std::vector<std::string>{"R", "G", "B"}
-                         : kind == SpaceKind::Luminance ? std::vector<std::string>{"Y"}
-                                                        : std::vector<std::string>{"X", "Y", "Z"};
+        m_plan.outputs = space_outputs(m_plan.space.kind);
         m_distinct = distinct_bands(m_set, m_metadata);
         return check_grid(m_set, m_plan.request, m_distinct.grid.wavelengths_nm);
     }
@@ -134,9 +128,9 @@ class PlanMaker {
         return {};
     }
 
-    /// The white that adaptation starts from.
+    /// The white that adaptation starts from, and that Lab and its like refer to.
     Result<void> choose_white() {
-        if (is_unadapted(m_plan.space.kind))
+        if (m_plan.observer.kind != ObserverKind::Colorimetric)
             return {};
         Vector3 white = kD65.xyz();  // radiance counts as D65-referred
         if (m_plan.display)          // but a display shows its very colour
@@ -148,7 +142,14 @@ class PlanMaker {
             OSIO_TRY(white,
                      parse_white(m_plan.request.white, m_plan.observer, m_plan.quadrature, m_load_text));
         }
-        m_plan.adapted_from = white;
+        m_plan.white = white;
+        const SpaceKind kind = m_plan.space.kind;
+        if (kind == SpaceKind::Lab && !(white[0] > 0 && white[2] > 0))
+            return fail(ErrorCode::InvalidGrid, "the white has X " + format_double(white[0]) + " and Z " +
+                                                    format_double(white[2]) +
+                                                    ", and Lab divides by them; name another with white=");
+        if (is_adapted(kind))
+            m_plan.adapted_from = white;
         return {};
     }
 
@@ -157,28 +158,26 @@ class PlanMaker {
         OSIO_TRY(const Vector3 k, normalisation());
         const double gain = std::exp2(m_plan.request.exposure_stops);
         const Matrix3 scaled = Matrix3::diagonal({gain * k[0], gain * k[1], gain * k[2]});
-        const OutputSpace& space = m_plan.space;
-        switch (space.kind) {
-        case SpaceKind::Xyz:
-        case SpaceKind::Camera: m_output_from_curves = scaled; break;
-        case SpaceKind::Luminance: m_output_from_curves.rows[0] = scaled.rows[1]; break;
-        case SpaceKind::XyzD65: m_output_from_curves = adapted_to(kD65.xyz()) * scaled; break;
-        case SpaceKind::Rgb:
-            m_output_from_curves = inverse(xyz_from_rgb(space)) * adapted_to(space.white.xyz()) * scaled;
-            break;
-        case SpaceKind::Display: {
+        m_output_from_curves = scaled;
+        if (m_plan.space.kind == SpaceKind::Luminance)
+            m_output_from_curves.rows[0] = scaled.rows[1];
+        if (!is_adapted(m_plan.space.kind))
+            return {};
+        Vector3 target = kD65.xyz();
+        Matrix3 output_from_xyz = Matrix3::identity();
+        if (m_plan.space.kind == SpaceKind::Rgb) {
+            target = m_plan.space.white.xyz();
+            output_from_xyz = inverse(xyz_from_rgb(m_plan.space));
+        } else if (m_plan.display) {
             const Matrix3 xyz_from_display = m_plan.display->xyz_from_rgb(m_plan.observer);
-            m_plan.space = described_by(xyz_from_display, space);
-            m_output_from_curves =
-                inverse(xyz_from_display) * adapted_to(xyz_from_display * Vector3{1, 1, 1}) * scaled;
-            break;
+            target = xyz_from_display * Vector3{1, 1, 1};
+            output_from_xyz = inverse(xyz_from_display);
+            m_plan.space = described_by(xyz_from_display, m_plan.space);
         }
-        }
+        OSIO_TRY(const Matrix3 adapt,
+                 adaptation_matrix(m_plan.request.adaptation, *m_plan.adapted_from, target));
+        m_output_from_curves = output_from_xyz * adapt * scaled;
         return {};
-    }
-
-    [[nodiscard]] Matrix3 adapted_to(const Vector3& white) const {
-        return bradford_adaptation(*m_plan.adapted_from, white);
     }
 
     /// What each integral is multiplied by.
@@ -188,7 +187,7 @@ class PlanMaker {
             return Vector3{1, 1, 1};
         if (m_plan.request.scale == Scale::Photometric) {
             const double efficacy =
-                observer.id == "scotopic" ? kScotopicEfficacyLmPerW : kPhotopicEfficacyLmPerW;
+                observer.id == "scotopic" ? kScotopicEfficacyLmPerW : kLuminousEfficacyLmPerW;
             return Vector3{efficacy, efficacy, efficacy};
         }
         const NmSamples& light = m_plan.request.filter_normalise ? m_filtered : m_light;
@@ -248,7 +247,7 @@ class PlanMaker {
                     outside[row] += std::abs(weight[row]);
             }
         }
-        for (std::size_t row = 0; row < m_plan.outputs.size(); ++row)
+        for (std::size_t row = 0; row < m_plan.weights.rows(); ++row)
             m_plan.extrapolated_share.push_back(all[row] > 0 ? outside[row] / all[row] : 0);
         if (auto warning = extrapolation_warning(m_plan, first, last))
             m_plan.warnings.push_back(std::move(*warning));
@@ -300,9 +299,14 @@ std::vector<double> CollapsePlan::wavelengths_nm() const {
     return out;
 }
 
+std::vector<std::string> CollapsePlan::weighed() const {
+    return is_tristimulus(space.kind) ? outputs : space_outputs(SpaceKind::Xyz);
+}
+
 std::vector<std::string> CollapsePlan::channel_names() const {
-    if (space.kind == SpaceKind::Luminance)
-        return {"Y"};
+    const bool own = space.kind == SpaceKind::Luminance || !is_tristimulus(space.kind);
+    if (own && request.names != OutputNames::Rgb)
+        return outputs;
     if (request.names == OutputNames::Xyz)
         return {"X", "Y", "Z"};
     return {"R", "G", "B"};

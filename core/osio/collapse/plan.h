@@ -29,21 +29,24 @@ using TextLoader = std::function<Result<std::string>(std::string_view path)>;
 struct CollapsePlan {
     CollapseRequest request;  ///< with the set that was chosen
     OutputSpace space;
-    std::vector<std::string> outputs;  ///< what the rows are: X, Y, Z; R, G, B; or Y alone
+    std::vector<std::string> outputs;  ///< what comes out: R, G, B; X, Y, Z; Y; L*, a*, b*; ...
     std::vector<Band> bands;           ///< by wavelength
-    WeightMatrix weights;              ///< outputs x bands, linear; the space's curve comes after
+    WeightMatrix weights;              ///< outputs x bands, linear; PixelStage has what the space adds
     Observer observer;
     std::optional<Illuminant> illuminant;
     std::vector<Filter> filters;
     std::optional<Display> display;
     BasisChoice basis;
     Quadrature quadrature = Quadrature::Sum1nm;
+    Vector3 white{};                         ///< XYZ of the white that values refer to, Y = 1
     std::optional<Vector3> adapted_from;     ///< XYZ of the white that adaptation starts from, Y = 1
     std::vector<double> extrapolated_share;  ///< for each output, share of weight beyond the bands
     std::vector<std::string> warnings;
     std::string id;
 
     [[nodiscard]] std::vector<double> wavelengths_nm() const;
+    /// What the rows of weights give: the outputs, or X, Y, Z where the outputs are made of those.
+    [[nodiscard]] std::vector<std::string> weighed() const;
     /// How the result's channels are called, by the request's `names`.
     [[nodiscard]] std::vector<std::string> channel_names() const;
 };
@@ -55,10 +58,11 @@ struct CollapsePlan {
 /// S (or stand before the radiance) but not k, unless the request normalises them. Scale::Photometric
 /// takes k = 683 lm/W (scotopic: 1700), Scale::Integral k = 1.
 ///
-/// RGB spaces are adapted by Bradford from the light's computed white without its filters (radiance: from
+/// Spaces with a white are adapted to it, by the request's `adaptation`, from the light's computed white without its filters (radiance: from
 /// D65, that is not at all for D65 spaces), or from the request's `white`; a display likewise to its own
 /// white, but from it for radiance, whose very colour it then shows. A camera's channels are each divided by their sum over the light, so that the perfect diffuser
-/// is (1, 1, 1), unless the scale is Integral. xyz, luminance and camera are not adapted.
+/// is (1, 1, 1), unless the scale is Integral. xyz, luminance and camera are not adapted; Lab, Luv and
+/// chromaticities refer to that same white, unadapted, and their weights are those of X, Y, Z.
 ///
 /// Refuses, before a pixel is read: a reflectance without an illuminant, a radiance with one, bands
 /// wholly outside 360-830 nm, one band with extrapolation zero (a curve of no width), a basis that the

@@ -20,9 +20,14 @@ Result<void> check_names(const CollapseRequest& request) {
     const std::string space(request.to->id);
     if (request.names == OutputNames::Layout)
         return usage("names=layout is for bands; with to=" + space + " use rgb or xyz");
-    if (request.names == OutputNames::Xyz && is_rgb(request.to->kind))
-        return usage("names=xyz does not fit to=" + space + ", whose values are red, green and blue");
-    if (request.names == OutputNames::Rgb && request.to->kind == SpaceKind::Luminance)
+    const SpaceKind kind = request.to->kind;
+    if (request.names == OutputNames::Xyz && (is_rgb(kind) || !is_tristimulus(kind)))
+        return usage("names=xyz does not fit to=" + space + ", whose values are " +
+                     (is_rgb(kind) ? "red, green and blue" : join(space_outputs(kind), ", ")));
+    if (request.adaptation != CollapseRequest{}.adaptation && !is_adapted(kind))
+        return usage("adapt=" + std::string(adaptation_name(request.adaptation)) +
+                     " does not fit to=" + space + ", which is not adapted");
+    if (request.names == OutputNames::Rgb && kind == SpaceKind::Luminance)
         return usage("names=rgb does not fit to=luminance, which is one channel, Y");
     return {};
 }
@@ -34,7 +39,7 @@ Result<void> check_request(const CollapseRequest& request) {
         return usage("no space to collapse to was named; use to=" + join(output_space_names(), ", to="));
     OSIO_CHECK_OK(check_names(request));
     const SpaceKind kind = request.to->kind;
-    if (!request.white.empty() && is_unadapted(kind))
+    if (!request.white.empty() && !has_white(kind))
         return usage("white=" + request.white + " does not fit to=" + std::string(request.to->id) +
                      ", which is not adapted" + (kind == SpaceKind::Xyz ? "; use to=xyz_d65" : ""));
     if ((kind == SpaceKind::Display) != !request.display.empty())
@@ -108,7 +113,7 @@ std::optional<std::string> extrapolation_warning(const CollapsePlan& plan, doubl
     } else {
         text += "much of the weight rests on it,";
         for (std::size_t row = 0; row < share.size(); ++row)
-            text += " " + plan.outputs[row] + " " + format_fixed(100 * share[row], 1) + " %";
+            text += " " + plan.weighed()[row] + " " + format_fixed(100 * share[row], 1) + " %";
     }
     return text;
 }

@@ -18,9 +18,9 @@ constexpr double kMostStops = 100;
 constexpr std::string_view kRaw = "raw";
 
 constexpr auto kOptions = std::to_array<RequestOption>({
-    {"to", "SPACE", "space to collapse to (list spaces); raw: the bands themselves"},
-    {"illuminant", "NAME|FILE.csv[,...]",
-     "light on a reflectance (list illuminants); several make several results"},
+    {"to", "SPACE",
+     "space to collapse to (list spaces; rgb:xr,yr,xg,yg,xb,yb,xw,yw); raw: the bands themselves"},
+    {"illuminant", "NAME|FILE.csv", "light on a reflectance (list illuminants)"},
     {"filter", "FILE.csv", "transmittance in front of the light; repeatable"},
     {"filter-normalise", "", "make the diffuser behind the filters Y = 1, instead of darker"},
     {"observer", "NAME|FILE.csv", "observer (list observers) or a camera's sensitivities; default cie1931"},
@@ -30,6 +30,7 @@ constexpr auto kOptions = std::to_array<RequestOption>({
     {"basis", "NAME", "how bands become a spectrum (list bases); default auto"},
     {"extrapolate", "hold|zero", "the spectrum beyond the end bands; default hold"},
     {"white", "NAME|x,y", "white to adapt from; default: the light's own, D65 for radiance"},
+    {"adapt", "NAME", "none, xyz-scaling, von-kries, bradford (default), cat02 or cat16"},
     {"scale", "relative|photometric|integral", "unit of the result; default relative"},
     {"exposure", "STOPS", "multiplies the result by 2^STOPS"},
     {"names", "rgb|xyz", "channel names of the result; in raw mode: layout keeps the file's"},
@@ -153,6 +154,8 @@ Result<void> set_option(CollapseRequest& request, std::string_view key, std::str
         OSIO_TRY(request.extrapolation, kExtrapolations.parse(key, value));
     } else if (key == "names") {
         OSIO_TRY(request.names, kNames.parse(key, value));
+    } else if (key == "adapt") {
+        OSIO_TRY(request.adaptation, find_adaptation(value));
     } else if (key == "illuminant") {
         request.illuminant = value;
     } else if (key == "part") {
@@ -172,7 +175,7 @@ Result<void> set_option(CollapseRequest& request, std::string_view key, std::str
 }
 
 std::string recipe_text(const CollapseRequest& request) {
-    std::string out = "to=" + std::string(request.to ? request.to->id : kRaw);
+    std::string out = "to=" + (request.to ? request.to->id : std::string(kRaw));
     const auto add = [&out](std::string_view key, std::string_view value) {
         if (!value.empty())
             out += "&" + std::string(key) + "=" + std::string(value);
@@ -189,17 +192,9 @@ std::string recipe_text(const CollapseRequest& request) {
     add("extrapolate", extrapolation_name(request.extrapolation));
     add("white", request.white);
     add("scale", scale_name(request.scale));
+    add("adapt", adaptation_name(request.adaptation));
     add("exposure", format_double(request.exposure_stops));
     add("names", kNames.name(request.names));
-    return out;
-}
-
-std::vector<CollapseRequest> split_lights(const CollapseRequest& request) {
-    std::vector<CollapseRequest> out;
-    for (const std::string_view light : split(request.illuminant, ',')) {
-        out.push_back(request);
-        out.back().illuminant = trim(light);
-    }
     return out;
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osio/base/result.h>
+#include <osio/colour/adaptation.h>
 #include <osio/colour/rgb_space.h>
 #include <osio/spectra/basis.h>
 
@@ -32,7 +33,7 @@ enum class Scale {
 /// queries, recipe files and host hints.
 struct CollapseRequest {
     std::optional<OutputSpace> to;     ///< nothing: the bands themselves
-    std::string illuminant;            ///< a name or the path of a .csv; empty: none; see split_lights
+    std::string illuminant;            ///< a name or the path of a .csv; empty: none
     std::vector<std::string> filters;  ///< paths of .csv, each in front of the light
     bool filter_normalise = false;     ///< the diffuser behind the filters has Y = 1
     std::string observer = "cie1931";  ///< a name, or the path of a camera's .csv
@@ -43,6 +44,7 @@ struct CollapseRequest {
     Extrapolation extrapolation = Extrapolation::Hold;
     std::string white;  ///< an illuminant's name, a .csv or "x,y"; empty: see docs
     Scale scale = Scale::Relative;
+    Adaptation adaptation = Adaptation::Bradford;
     double exposure_stops = 0;
     OutputNames names = OutputNames::Default;
 };
@@ -64,9 +66,6 @@ struct RequestOption {
 /// The request as `key=value&...`: every choice that matters to the result, defaults included, in a
 /// fixed order. Reading it back gives the same request.
 [[nodiscard]] std::string recipe_text(const CollapseRequest& request);
-
-/// The requests that one with several lights ("A,D65,FL11") stands for, one a light.
-[[nodiscard]] std::vector<CollapseRequest> split_lights(const CollapseRequest& request);
 
 /// A basis and what it means, for people.
 struct BasisInfo {

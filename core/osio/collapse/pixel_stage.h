@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <osio/base/matrix3.h>
+#include <osio/colour/rgb_space.h>
+
+#include <cstddef>
+#include <span>
+
+namespace osio {
+
+/// What a space adds to the sums over bands, pixel by pixel: sRGB's curve, or the way from XYZ to Lab,
+/// Luv, xyY or u'v'Y. Nothing for linear spaces.
+class PixelStage {
+  public:
+    /// `white`: XYZ that Lab, Luv and chromaticities refer to.
+    PixelStage(const OutputSpace& space, const Vector3& white) : m_space(space), m_white(white) {}
+
+    [[nodiscard]] bool needed() const {
+        return m_space.transfer != Transfer::Linear || !is_tristimulus(m_space.kind);
+    }
+
+    /// True where a negative value of the space lies outside what is real: not so in Lab and Luv.
+    [[nodiscard]] bool negative_is_outside() const {
+        return m_space.kind != SpaceKind::Lab && m_space.kind != SpaceKind::Luv;
+    }
+
+    /// One pixel of unassociated colour.
+    [[nodiscard]] Vector3 convert(const Vector3& linear) const;
+
+    /// Converts three planes in place. Where `alpha` is not null, colour is associated with it: it is
+    /// divided by alpha, converted and multiplied again; alpha of 0 or below leaves it as it is.
+    void apply(std::span<float* const, 3> planes, const float* alpha, std::size_t pixels) const;
+
+  private:
+    OutputSpace m_space;
+    Vector3 m_white;
+};
+
+}  // namespace osio
