@@ -20,7 +20,7 @@ import numpy as np
 import OpenImageIO as oiio
 
 COMPRESSIONS = ("none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab")
-REGIONS = ("header", "table", "chunkheader", "deflated", "stored", "packed")
+REGIONS = ("header", "table", "chunkheader", "deflated", "collision", "stored", "packed")
 FULL = 10000
 
 
@@ -106,12 +106,15 @@ copies were refused, or gave the same colour to the bit. Files: 8 bands, 48x40, 
 {summary}.
 
 Foreign files are written by OpenImageIO's own OpenEXR writer and hold no checksum. Deflated bytes carry one by their
-nature (Adler-32); all other payload, and the header, carry none, and what a flipped bit does there is the colour of a few
-pixels or of a band. Files of our own hold a checksum of every chunk and of the header
+nature (Adler-32). It is weak where bytes repeat: one bit that changes the distance of a match can move bytes about so
+that both of its sums stay, and then every reader of zlib streams takes them for sound; such flips have a column of their
+own. All other payload, and the header, carry none, and what a flipped bit does there is the colour of a few pixels or of
+a band. Files of our own hold a checksum of every chunk and of the header
 ([decision](design/0009-damage.md)).
 
 Columns: truncations; then bit flips by where they were: header, table of chunks, the chunks' own headers, deflated
-payload, chunks stored as they are, payload of other compressions.
+payload (refused, or the same colour); deflated payload whose Adler-32 the flip left as it was; chunks stored as they are;
+payload of other compressions.
 """
 
 

@@ -55,7 +55,8 @@ TEST(GoldenPhotometry, LuminanceIsTheYOfAPlanTimesThatOfFlatOne) {
     Bound bound("luminance weights against Y", 1e-12);
     for (const auto& grid :
          {steps(400, 10, 700), {400.0, 500.0, 500.0, 650.0}, steps(500, 0.25, 520), {555.0}}) {
-        for (const char* request : {"to=xyz", "to=xyz&exposure=2"}) {
+        for (const char* request :
+             {"to=xyz", "to=xyz&exposure=2", "to=xyz&basis=linear", "to=xyz&basis=bins"}) {
             const auto plan = plan_of(set_of(Family::S0, grid), request).value();
             NmSamples ones{};
             ones.fill(1);

@@ -72,9 +72,9 @@ using Result = tl::expected<T, Error>;
     declaration = std::move(*OSIO_JOIN(osio_result_, __LINE__))
 
 /// `OSIO_CHECK_OK(expression)`: the enclosing function returns the error of a Result<void>.
-#define OSIO_CHECK_OK(expression)                                  \
-    do {                                                           \
-        auto osio_status = (expression);                           \
-        if (!osio_status)                                          \
-            return tl::unexpected(std::move(osio_status).error()); \
+#define OSIO_CHECK_OK(expression)                                                            \
+    do {                                                                                     \
+        auto&& osio_status = (expression);                                                   \
+        if (!osio_status)                                                                    \
+            return tl::unexpected(std::forward<decltype(osio_status)>(osio_status).error()); \
     } while (false)

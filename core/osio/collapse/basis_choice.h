@@ -19,6 +19,12 @@ struct DistinctBands {
     BandGrid grid;
     std::vector<std::size_t> index_of_band;
     std::vector<std::size_t> bands_at;  ///< how many bands share a wavelength
+
+    /// The share of its wavelength's weight that a band has: a collapse takes the mean of bands that
+    /// share one.
+    [[nodiscard]] double share_of(std::size_t band) const {
+        return 1 / static_cast<double>(bands_at[index_of_band[band]]);
+    }
 };
 
 /// Bands that share a wavelength are one; of several responses at it the first counts. Edges and

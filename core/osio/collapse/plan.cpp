@@ -83,8 +83,8 @@ class PlanMaker {
         OSIO_CHECK_OK(check_quantity(m_set, m_plan.request));
         m_plan.space = *m_plan.request.to;
         m_plan.outputs = space_outputs(m_plan.space.kind);
-        m_distinct = distinct_bands(m_set, m_metadata);
-        return check_grid(m_set, m_plan.request, m_distinct.grid.wavelengths_nm);
+        m_plan.distinct = distinct_bands(m_set, m_metadata);
+        return check_grid(m_set, m_plan.request, m_plan.distinct.grid.wavelengths_nm);
     }
 
     Result<void> look_up() {
@@ -121,10 +121,10 @@ class PlanMaker {
     }
 
     Result<void> decide_basis() {
-        OSIO_TRY(m_plan.basis, choose_basis(m_plan.request.basis, m_set, m_distinct.grid, m_metadata));
+        OSIO_TRY(m_plan.basis, choose_basis(m_plan.request.basis, m_set, m_plan.distinct.grid, m_metadata));
         if (m_plan.basis.warning)
             m_plan.warnings.push_back(*m_plan.basis.warning);
-        m_plan.quadrature = quadrature_for(m_plan.basis.basis, m_distinct.grid.wavelengths_nm);
+        m_plan.quadrature = quadrature_for(m_plan.basis.basis, m_plan.distinct.grid.wavelengths_nm);
         return {};
     }
 
@@ -211,17 +211,16 @@ class PlanMaker {
         std::array<std::vector<double>, 3> integrals;
         for (std::size_t c = 0; c < 3; ++c) {
             integrals[c] =
-                band_integrals(m_plan.basis.basis, m_distinct.grid, m_filtered, m_plan.observer.curves[c],
-                               m_plan.request.extrapolation, m_plan.quadrature);
+                band_integrals(m_plan.basis.basis, m_plan.distinct.grid, m_filtered,
+                               m_plan.observer.curves[c], m_plan.request.extrapolation, m_plan.quadrature);
             if (integrals[c].empty())
                 return fail(ErrorCode::InvalidGrid,
                             "the responses of the bands do not tell them apart; use basis=linear");
         }
         m_plan.weights = WeightMatrix(m_plan.outputs.size(), m_plan.bands.size());
         for (std::size_t band = 0; band < m_plan.bands.size(); ++band) {
-            const std::size_t i = m_distinct.index_of_band[band];
-            // Bands that share a wavelength share its weight: the collapse takes their mean.
-            const double share = 1 / static_cast<double>(m_distinct.bands_at[i]);
+            const std::size_t i = m_plan.distinct.index_of_band[band];
+            const double share = m_plan.distinct.share_of(band);
             const Vector3 out =
                 m_output_from_curves *
                 Vector3{share * integrals[0][i], share * integrals[1][i], share * integrals[2][i]};
@@ -255,7 +254,7 @@ class PlanMaker {
 
     /// The wavelengths that the bands say something about.
     [[nodiscard]] std::pair<double, double> covered() const {
-        const BandGrid& grid = m_distinct.grid;
+        const BandGrid& grid = m_plan.distinct.grid;
         const bool binned = is_binned(m_plan.basis.basis) && grid.size() > 1;
         const auto ends =
             binned && m_plan.basis.basis != Basis::Response ? grid.edges() : grid.wavelengths_nm;
@@ -284,7 +283,6 @@ class PlanMaker {
     const SpectralMetadata& m_metadata;
     const TextLoader& m_load_text;
     CollapsePlan m_plan;
-    DistinctBands m_distinct;
     NmSamples m_light{};     ///< what the samples are multiplied by, without filters
     NmSamples m_filtered{};  ///< with them
     Matrix3 m_output_from_curves;

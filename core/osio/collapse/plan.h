@@ -37,6 +37,7 @@ struct CollapsePlan {
     std::vector<Filter> filters;
     std::optional<Display> display;
     BasisChoice basis;
+    DistinctBands distinct;  ///< the bands as the curves that the basis is made of
     Quadrature quadrature = Quadrature::Sum1nm;
     Vector3 white{};                         ///< XYZ of the white that values refer to, Y = 1
     std::optional<Vector3> adapted_from;     ///< XYZ of the white that adaptation starts from, Y = 1
