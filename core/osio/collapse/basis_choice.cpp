@@ -72,6 +72,8 @@ BasisChoice suggested(const SpectralSet& set, const BandGrid& grid) {
     const std::string steps = grid.uniform() ? " at equal steps" : " at unequal steps";
     if (!grid.edges_nm.empty())
         return {Basis::Bins, "the file states the edges of its bins", std::nullopt};
+    if (grid.size() > 1 && grid.mean_step_nm() <= 1)
+        return {Basis::Linear, "bands 1 nm apart or closer are the samples that CIE 15 sums", std::nullopt};
     if (set.quantity() == Quantity::Radiance) {
         const bool corrected = grid.uniform() && grid.size() >= kFewestCorrectedBins;
         return {corrected ? Basis::BinsCorrected : Basis::Bins,
@@ -80,9 +82,8 @@ BasisChoice suggested(const SpectralSet& set, const BandGrid& grid) {
                 std::nullopt};
     }
     const std::string reason = "reflectance counts as samples, as it is measured; " + count_of(grid) + steps;
-    const bool closer = quadrature_for(grid.wavelengths_nm) == Quadrature::Exact;
-    if (!grid.uniform() || closer || grid.size() < fewest_bands(Basis::E2022))
-        return {Basis::Linear, reason + (closer ? ", closer than 1 nm" : ""), std::nullopt};
+    if (!grid.uniform() || grid.size() < fewest_bands(Basis::E2022))
+        return {Basis::Linear, reason, std::nullopt};
     return {grid.size() >= fewest_bands(Basis::Sprague) ? Basis::Sprague : Basis::E2022, reason,
             std::nullopt};
 }

@@ -45,7 +45,8 @@ inline constexpr std::size_t kFewestCorrectedBins = 13;
 /// Decides the basis of a request.
 ///
 /// Auto obeys the attribute `spectral:basis`; else takes Response where every band has a sensitivity or
-/// a width of its own; else a reflectance for samples (Sprague on equal steps, E2022 on 3 to 5, Linear
+/// a width of its own; Bins where the file states edges; Linear for bands 1 nm apart or closer on
+/// average; else a reflectance for samples (Sprague on equal steps, E2022 on 3 to 5, Linear
 /// otherwise) and a radiance, which cameras and renderers average, for bins (BinsCorrected on
 /// kFewestCorrectedBins equal steps or more, Bins otherwise).
 ///
