@@ -48,8 +48,8 @@ struct Checksum {
 /// Reserves the attribute's place in a header that is about to be written.
 void reserve_checksum(std::size_t chunk_count, Imf::Header& header);
 
-/// Computes the checksum of a complete file and writes it into its place. `path` is a scanline file of
-/// one part that reserve_checksum() prepared.
+/// Computes the checksums of a complete file, one a part, and writes them into their places. `path` is a
+/// file of scanline parts that reserve_checksum() prepared.
 [[nodiscard]] Result<void> write_checksum(const std::string& path);
 
 }  // namespace osio::exr

@@ -38,7 +38,7 @@ Result<std::shared_ptr<const ChunkMap>> ChunkMap::load(RawFile file, const RawHe
         return damaged("has " + std::to_string(headers.parts.size()) + " headers, of which " +
                        std::to_string(parts.size()) + " can be read");
     OSIO_CHECK_OK(map->read_tables(headers.end, parts, counts));
-    OSIO_CHECK_OK(map->adopt_checksum(headers, parts));
+    OSIO_CHECK_OK(map->adopt_checksum(headers));
     return map;
 }
 
@@ -77,22 +77,26 @@ Result<void> ChunkMap::read_tables(std::uint64_t at, const std::vector<ExrPart>&
     return {};
 }
 
-Result<void> ChunkMap::adopt_checksum(const RawHeaders& headers, const std::vector<ExrPart>& parts) {
-    const RawAttribute* const found = parts.size() == 1 ? find_checksum(headers.parts[0]) : nullptr;
-    const auto sum = found == nullptr ? std::nullopt : Checksum::parse(found->value);
-    if (!sum)
-        return {};
-    // Whoever writes a file again, attributes and all, changes its length; damage in place does not.
-    if (sum->file_bytes != m_file.size()) {
-        m_sum = Sum::Foreign;
-        return {};
+Result<void> ChunkMap::adopt_checksum(const RawHeaders& headers) {
+    for (std::size_t index = 0; index < m_parts.size(); ++index) {
+        const RawAttribute* const found = find_checksum(headers.parts[index]);
+        const auto sum = found == nullptr ? std::nullopt : Checksum::parse(found->value);
+        if (!sum) {
+            m_sum = m_sum == Sum::Own ? Sum::Foreign : m_sum;
+            return {};
+        }
+        // Whoever writes a file again, attributes and all, changes its length; damage in place does not.
+        if (sum->file_bytes != m_file.size()) {
+            m_sum = Sum::Foreign;
+            return {};
+        }
+        if (sum->chunks.size() != m_parts[index].offsets.size() ||
+            sum->header != header_checksum(headers.version, headers.parts[index]))
+            return damaged("its header does not have the checksum that was written with it; an attribute was "
+                           "changed or damaged");
+        m_sum = Sum::Own;
+        m_parts[index].sums = sum->chunks;
     }
-    if (sum->chunks.size() != m_parts[0].offsets.size() ||
-        sum->header != header_checksum(headers.version, headers.parts[0]))
-        return damaged("its header does not have the checksum that was written with it; an attribute was "
-                       "changed or damaged");
-    m_sum = Sum::Own;
-    m_sums = sum->chunks;
     return {};
 }
 
@@ -143,7 +147,7 @@ Result<void> ChunkMap::check(std::size_t index, std::uint64_t chunk, std::string
     if (m_sum != Sum::Own)
         return {};
     OSIO_CHECK_OK(m_file.read(offset, header_bytes + bytes, scratch));
-    if (chunk_checksum(scratch) != m_sums[chunk])
+    if (chunk_checksum(scratch) != part.sums[chunk])
         return damaged("does not have the checksum that was written with it");
     return {};
 }

@@ -51,9 +51,10 @@ class ChunkMap {
   private:
     struct Part {
         std::vector<std::uint64_t> offsets;
-        std::uint64_t full = 0;     ///< chunks of the full resolution
-        std::uint64_t columns = 1;  ///< tiles across
-        std::int64_t lines = 0;     ///< rows of a chunk
+        std::vector<std::uint64_t> sums;  ///< where the file has checksums of its own
+        std::uint64_t full = 0;           ///< chunks of the full resolution
+        std::uint64_t columns = 1;        ///< tiles across
+        std::int64_t lines = 0;           ///< rows of a chunk
         std::int64_t min_y = 0, max_y = 0;
         std::uint64_t most_bytes = 0;  ///< a chunk unpacked
         bool tiled = false;
@@ -63,7 +64,7 @@ class ChunkMap {
 
     [[nodiscard]] Result<void> read_tables(std::uint64_t at, const std::vector<ExrPart>& parts,
                                            const std::vector<std::uint64_t>& counts);
-    [[nodiscard]] Result<void> adopt_checksum(const RawHeaders& headers, const std::vector<ExrPart>& parts);
+    [[nodiscard]] Result<void> adopt_checksum(const RawHeaders& headers);
     [[nodiscard]] std::size_t chunk_header_bytes(const Part& part) const;
     [[nodiscard]] Result<void> check_header(std::size_t part, std::uint64_t chunk,
                                             std::string_view header) const;
@@ -74,7 +75,6 @@ class ChunkMap {
     std::vector<std::uint64_t> m_sorted;  ///< all offsets, then the end of the file
     std::uint64_t m_pixels_at = 0;        ///< where the tables end
     Sum m_sum = Sum::None;
-    std::vector<std::uint64_t> m_sums;
 };
 
 }  // namespace osio::exr

@@ -3,6 +3,8 @@
 
 #include <osio/collapse/selection.h>
 
+#include <algorithm>
+
 namespace osio::exr {
 
 std::vector<std::string> CollapseJob::channel_names() const {
@@ -12,15 +14,6 @@ std::vector<std::string> CollapseJob::channel_names() const {
     return names;
 }
 
-Result<std::unique_ptr<BlockSource>> CollapseJob::open_source(Grain grain) const {
-    PlaneChannels planes;
-    for (std::size_t band = 0; band < plan.bands.size(); ++band)
-        planes.push_back(plan.weights.needs(band) ? std::optional(plan.bands[band].channel) : std::nullopt);
-    if (alpha)
-        planes.emplace_back(alpha);
-    return make_block_source(file, part_index, std::move(planes), grain);
-}
-
 std::vector<SampleType> CollapseJob::plane_types() const {
     std::vector<SampleType> types;
     for (const Band& band : plan.bands)
@@ -28,6 +21,20 @@ std::vector<SampleType> CollapseJob::plane_types() const {
     if (alpha)
         types.push_back(part().channels[*alpha].type);
     return types;
+}
+
+Result<std::unique_ptr<BlockSource>> open_source(std::span<const CollapseJob> jobs, Grain grain) {
+    const CollapseJob& first = jobs.front();
+    PlaneChannels planes;
+    for (std::size_t band = 0; band < first.plan.bands.size(); ++band) {
+        const bool needed = std::any_of(jobs.begin(), jobs.end(), [band](const CollapseJob& job) {
+            return job.plan.weights.needs(band);
+        });
+        planes.push_back(needed ? std::optional(first.plan.bands[band].channel) : std::nullopt);
+    }
+    if (first.alpha)
+        planes.emplace_back(first.alpha);
+    return make_block_source(first.file, first.part_index, std::move(planes), grain);
 }
 
 Result<CollapseJob> open_collapse(const std::string& path, const CollapseRequest& request,
@@ -55,6 +62,28 @@ Result<CollapseJob> prepare_collapse(std::shared_ptr<const ExrFile> file, const 
         return fail(ErrorCode::Unsupported, "alpha is sub-sampled", job.file->path());
     job.warnings.insert(job.warnings.end(), job.plan.warnings.begin(), job.plan.warnings.end());
     return job;
+}
+
+Result<std::vector<CollapseJob>> open_collapses(const std::string& path, const CollapseRequest& request,
+                                                const TextLoader& load_text) {
+    OSIO_TRY(const std::shared_ptr<const ExrFile> file, ExrFile::open(path));
+    return prepare_collapses(file, request, load_text);
+}
+
+Result<std::vector<CollapseJob>> prepare_collapses(const std::shared_ptr<const ExrFile>& file,
+                                                   const CollapseRequest& request,
+                                                   const TextLoader& load_text) {
+    OSIO_TRY(const auto requests, requests_by_light(request));
+    std::vector<CollapseJob> jobs;
+    for (const CollapseRequest& one : requests) {
+        OSIO_TRY(CollapseJob job, prepare_collapse(file, one, load_text));
+        for (const CollapseJob& other : jobs)
+            if (other.plan.request.illuminant == job.plan.request.illuminant)
+                return fail(ErrorCode::Usage, "illuminant=" + request.illuminant + " names " +
+                                                  job.plan.request.illuminant + " twice");
+        jobs.push_back(std::move(job));
+    }
+    return jobs;
 }
 
 }  // namespace osio::exr

@@ -10,10 +10,17 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 namespace osio::exr {
+
+struct CollapseJob;
+
+/// The bands that any of some jobs for the same set needs, then alpha.
+[[nodiscard]] Result<std::unique_ptr<BlockSource>> open_source(std::span<const CollapseJob> jobs,
+                                                               Grain grain = Grain::Block);
 
 /// A file, the part of it that a request means, and the plan for its bands: everything that is
 /// decided before a pixel is read.
@@ -30,17 +37,30 @@ struct CollapseJob {
     [[nodiscard]] std::vector<std::string> channel_names() const;
 
     /// The bands that the plan needs, then alpha.
-    [[nodiscard]] Result<std::unique_ptr<BlockSource>> open_source(Grain grain = Grain::Block) const;
+    [[nodiscard]] Result<std::unique_ptr<BlockSource>> open_source(Grain grain = Grain::Block) const {
+        return exr::open_source({this, 1}, grain);
+    }
 
     /// How the samples of the source's planes are stored.
     [[nodiscard]] std::vector<SampleType> plane_types() const;
 };
 
-/// Opens the file, chooses the set and makes the plan; every refusal comes from here.
+/// Opens the file, chooses the set and makes the plan under one light at most; every refusal comes from
+/// here.
 [[nodiscard]] Result<CollapseJob> open_collapse(const std::string& path, const CollapseRequest& request,
                                                 const TextLoader& load_text);
 
+/// The jobs of a request for several lights, or the one of any other: same file, part and set. Usage where
+/// two lights are the same.
+[[nodiscard]] Result<std::vector<CollapseJob>>
+open_collapses(const std::string& path, const CollapseRequest& request, const TextLoader& load_text);
+
 /// The same for a file that is open already.
+[[nodiscard]] Result<std::vector<CollapseJob>> prepare_collapses(const std::shared_ptr<const ExrFile>& file,
+                                                                 const CollapseRequest& request,
+                                                                 const TextLoader& load_text);
+
+/// One job for a file that is open already.
 [[nodiscard]] Result<CollapseJob> prepare_collapse(std::shared_ptr<const ExrFile> file,
                                                    const CollapseRequest& request,
                                                    const TextLoader& load_text);

@@ -17,7 +17,7 @@ constexpr float kHalfMax = 65504.0F;
 /// A worker's rows, converted and packed.
 class ExrSink::Worker final : public RowWorker {
   public:
-    explicit Worker(ExrSink& sink) : m_sink(sink), m_packer(sink.m_writer->start_packer()) {}
+    explicit Worker(ExrSink& sink) : m_sink(sink), m_packer(sink.m_writer->start_packer(sink.m_part)) {}
 
     [[nodiscard]] Result<void> prepare(int first_row, int row_count,
                                        std::span<const float* const> planes) override {
@@ -62,8 +62,8 @@ class ExrSink::Worker final : public RowWorker {
     std::uint64_t m_clamped = 0;
 };
 
-ExrSink::ExrSink(std::unique_ptr<ExrWriter> writer, SampleType type, int width)
-    : m_writer(std::move(writer)), m_type(type), m_width(static_cast<std::size_t>(width)) {}
+ExrSink::ExrSink(std::shared_ptr<ExrWriter> writer, SampleType type, int width, std::size_t part)
+    : m_writer(std::move(writer)), m_part(part), m_type(type), m_width(static_cast<std::size_t>(width)) {}
 
 std::unique_ptr<RowWorker> ExrSink::start_worker() {
     return std::make_unique<Worker>(*this);

@@ -3,6 +3,7 @@
 #include <formats/exr/chunk_geometry.h>
 #include <formats/exr/exr_file.h>
 #include <formats/exr/exr_writer.h>
+#include <formats/exr/header_output.h>
 #include <formats/exr/zip_output.h>
 #include <formats/files/checked_file.h>
 #include <formats/files/replacement_file.h>
@@ -10,11 +11,15 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfMultiPartOutputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
+#include <OpenEXR/ImfOutputPart.h>
+#include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfThreading.h>
 
 #include <algorithm>
 #include <atomic>
+#include <deque>
 #include <exception>
 #include <optional>
 #include <stdexcept>
@@ -54,59 +59,106 @@ class CheckedStream final : public Imf::OStream {
 }  // namespace
 
 struct ExrWriter::State {
-    State(files::ReplacementFile replacement, const Imf::Header& header,
-          std::span<const OutputChannel> output_channels)
-        : file(std::move(replacement)), channels(output_channels.begin(), output_channels.end()),
-          stream(file.path()), next_row(header.dataWindow().min.y), min_x(header.dataWindow().min.x),
-          width(header.dataWindow().max.x - min_x + 1), rows_left(header.dataWindow().max.y - next_row + 1) {
-        if (ZipOutput::can_write(header))
-            zip.emplace(stream, header, channels);
+    /// What is known of a part while it is written.
+    struct Part {
+        explicit Part(const OutputPart& part)
+            : channels(part.channels), next_row(part.header.dataWindow().min.y),
+              min_x(part.header.dataWindow().min.x), width(part.header.dataWindow().max.x - min_x + 1),
+              rows_left(part.header.dataWindow().max.y - next_row + 1) {}
+
+        std::vector<OutputChannel> channels;
+        std::optional<ZipOutput> zip;  ///< nothing where OpenEXR writes the chunks
+        int next_row;
+        int min_x;
+        int width;
+        int rows_left;
+    };
+
+    State(files::ReplacementFile replacement, const std::vector<OutputPart>& output_parts)
+        : file(std::move(replacement)), stream(file.path()) {
+        std::vector<Imf::Header> headers;
+        for (const OutputPart& part : output_parts) {
+            headers.push_back(part.header);
+            parts.emplace_back(part);
+        }
+        if (std::all_of(headers.begin(), headers.end(), ZipOutput::can_write))
+            start_zip(output_parts, headers);
+        else if (headers.size() == 1)
+            output.emplace(stream, headers.front(), Imf::globalThreadCount());
         else
-            output.emplace(stream, header, Imf::globalThreadCount());
+            outputs.emplace(stream, headers.data(), static_cast<int>(headers.size()), false,
+                            Imf::globalThreadCount());
+    }
+
+    void start_zip(const std::vector<OutputPart>& output_parts, const std::vector<Imf::Header>& headers) {
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            parts[i].zip.emplace(stream, headers[i], output_parts[i].channels,
+                                 parts.size() > 1 ? std::optional(static_cast<std::uint32_t>(i))
+                                                  : std::nullopt);
+        write_headers(stream, headers);
+        for (Part& part : parts)
+            part.zip->reserve_table();
     }
 
     /// Runs what writes, and turns what OpenEXR and the stream throw into an error.
     template <class Write>
-    Result<void> guarded(int row_count, Write write) {
+    Result<void> guarded(Write write) {
         try {
             write();
         } catch (const std::exception& error) {
             return fail(ErrorCode::Io, std::string("cannot be written: ") + error.what(), file.target());
         }
-        next_row += row_count;
-        rows_left -= row_count;
         return {};
     }
 
+    /// The same for rows of a part.
+    template <class Write>
+    Result<void> guarded(Part& part, int row_count, Write write) {
+        OSIO_CHECK_OK(guarded(write));
+        part.next_row += row_count;
+        part.rows_left -= row_count;
+        return {};
+    }
+
+    /// Rows at a part's turn, packed by OpenEXR.
+    void write_rows(std::size_t index, const Imf::FrameBuffer& buffer, int row_count) {
+        if (output) {
+            output->setFrameBuffer(buffer);
+            output->writePixels(row_count);
+            return;
+        }
+        Imf::OutputPart part(*outputs, static_cast<int>(index));
+        part.setFrameBuffer(buffer);
+        part.writePixels(row_count);
+    }
+
     files::ReplacementFile file;
-    std::vector<OutputChannel> channels;
     CheckedStream stream;
-    std::optional<ZipOutput> zip;  ///< this or the next
-    std::optional<Imf::OutputFile> output;
-    int next_row;
-    int min_x;
-    int width;
-    int rows_left;
+    std::deque<Part> parts;
+    std::optional<Imf::OutputFile> output;            ///< of one part that is not ours to pack
+    std::optional<Imf::MultiPartOutputFile> outputs;  ///< of several
 };
 
 /// Packs chunks in the worker.
 class ExrWriter::ZipPacker final : public Packer {
   public:
-    explicit ZipPacker(State& state) : m_state(state), m_encoder(state.zip->level()) {}
+    ZipPacker(State& state, std::size_t part)
+        : m_state(state), m_part(state.parts[part]), m_encoder(m_part.zip->level()) {}
 
     [[nodiscard]] Result<void> pack(int first_row, int row_count,
                                     std::span<const ChannelRows> channels) override {
         m_row_count = row_count;
-        m_state.zip->pack(first_row, row_count, channels, m_encoder, m_rows);
+        m_part.zip->pack(first_row, row_count, channels, m_encoder, m_rows);
         return {};
     }
 
     [[nodiscard]] Result<void> write() override {
-        return m_state.guarded(m_row_count, [&] { m_state.zip->append(m_rows); });
+        return m_state.guarded(m_part, m_row_count, [&] { m_part.zip->append(m_rows); });
     }
 
   private:
     State& m_state;
+    State::Part& m_part;
     ZipEncoder m_encoder;
     PackedRows m_rows;
     int m_row_count = 0;
@@ -115,7 +167,7 @@ class ExrWriter::ZipPacker final : public Packer {
 /// Leaves the packing to OpenEXR, when it is the rows' turn.
 class ExrWriter::PlainPacker final : public Packer {
   public:
-    explicit PlainPacker(State& state) : m_state(state) {}
+    PlainPacker(State& state, std::size_t part) : m_state(state), m_index(part) {}
 
     [[nodiscard]] Result<void> pack(int, int row_count, std::span<const ChannelRows> channels) override {
         m_row_count = row_count;
@@ -124,23 +176,24 @@ class ExrWriter::PlainPacker final : public Packer {
     }
 
     [[nodiscard]] Result<void> write() override {
-        return m_state.guarded(m_row_count, [&] {
+        State::Part& part = m_state.parts[m_index];
+        return m_state.guarded(part, m_row_count, [&] {
             Imf::FrameBuffer buffer;
             for (std::size_t c = 0; c < m_channels.size(); ++c) {
                 const auto& rows = m_channels[c];
-                buffer.insert(m_state.channels[c].name,
-                              Imf::Slice::Make(pixel_type(m_state.channels[c].type), rows.data,
-                                               Imath::V2i(m_state.min_x, m_state.next_row), m_state.width,
-                                               m_row_count, static_cast<std::size_t>(rows.pixel_stride_bytes),
+                buffer.insert(part.channels[c].name,
+                              Imf::Slice::Make(pixel_type(part.channels[c].type), rows.data,
+                                               Imath::V2i(part.min_x, part.next_row), part.width, m_row_count,
+                                               static_cast<std::size_t>(rows.pixel_stride_bytes),
                                                static_cast<std::size_t>(rows.row_stride_bytes)));
             }
-            m_state.output->setFrameBuffer(buffer);
-            m_state.output->writePixels(m_row_count);
+            m_state.write_rows(m_index, buffer, m_row_count);
         });
     }
 
   private:
     State& m_state;
+    std::size_t m_index;
     std::vector<ChannelRows> m_channels;
     int m_row_count = 0;
 };
@@ -151,31 +204,43 @@ ExrWriter::~ExrWriter() = default;
 
 Result<std::unique_ptr<ExrWriter>> ExrWriter::create(const std::string& path, Imf::Header header,
                                                      std::span<const OutputChannel> channels) {
+    return create(path, {OutputPart{std::move(header), {channels.begin(), channels.end()}}});
+}
+
+Result<std::unique_ptr<ExrWriter>> ExrWriter::create(const std::string& path, std::vector<OutputPart> parts) {
     OSIO_TRY(files::ReplacementFile file, files::ReplacementFile::create(path));
     try {
-        header.channels() = Imf::ChannelList();
-        for (const OutputChannel& channel : channels)
-            header.channels().insert(channel.name, Imf::Channel(pixel_type(channel.type)));
-        header.lineOrder() = Imf::INCREASING_Y;
-        reserve_checksum(scanline_chunks(header), header);
-        return std::unique_ptr<ExrWriter>(
-            new ExrWriter(std::make_unique<State>(std::move(file), header, channels)));
+        for (OutputPart& part : parts) {
+            Imf::Header& header = part.header;
+            header.channels() = Imf::ChannelList();
+            for (const OutputChannel& channel : part.channels)
+                header.channels().insert(channel.name, Imf::Channel(pixel_type(channel.type)));
+            header.lineOrder() = Imf::INCREASING_Y;
+            const std::size_t chunks = scanline_chunks(header);
+            if (parts.size() > 1) {
+                header.setType(Imf::SCANLINEIMAGE);
+                header.setChunkCount(static_cast<int>(chunks));
+            }
+            reserve_checksum(chunks, header);
+        }
+        return std::unique_ptr<ExrWriter>(new ExrWriter(std::make_unique<State>(std::move(file), parts)));
     } catch (const std::exception& error) {
         return fail(ErrorCode::Io, std::string("cannot be written: ") + error.what(), path);
     }
 }
 
-std::unique_ptr<ExrWriter::Packer> ExrWriter::start_packer() {
-    if (m_state->zip)
-        return std::make_unique<ZipPacker>(*m_state);
-    return std::make_unique<PlainPacker>(*m_state);
+std::unique_ptr<ExrWriter::Packer> ExrWriter::start_packer(std::size_t part) {
+    if (m_state->parts[part].zip)
+        return std::make_unique<ZipPacker>(*m_state, part);
+    return std::make_unique<PlainPacker>(*m_state, part);
 }
 
 Result<void> ExrWriter::write_rows(int row_count, std::span<const ChannelRows> channels, Runner* runner) {
-    const int lines = m_state->zip ? m_state->zip->lines_per_chunk() : row_count;
-    const int first_row = m_state->next_row, end_row = first_row + row_count;
+    const State::Part& part = m_state->parts.front();
+    const int lines = part.zip ? part.zip->lines_per_chunk() : row_count;
+    const int first_row = part.next_row, end_row = first_row + row_count;
     const int rows_per_piece = std::max(lines, kFewestRows / lines * lines);
-    const bool spread = runner != nullptr && m_state->zip && row_count > rows_per_piece;
+    const bool spread = runner != nullptr && part.zip && row_count > rows_per_piece;
     const unsigned workers = spread ? runner->worker_count() : 1;
     std::vector<std::unique_ptr<Packer>> packers;
     for (unsigned worker = 0; worker < workers; ++worker)
@@ -213,12 +278,15 @@ Result<void> ExrWriter::write_rows(int row_count, std::span<const ChannelRows> c
 
 Result<void> ExrWriter::finish(files::Durability durability) {
     State& state = *m_state;
-    if (state.rows_left != 0)
-        return fail(ErrorCode::Io, std::to_string(state.rows_left) + " rows were never written",
-                    state.file.target());
-    if (state.zip)
-        OSIO_CHECK_OK(state.guarded(0, [&] { state.zip->finish(); }));
-    state.output.reset();  // writes the offset table
+    for (State::Part& part : state.parts) {
+        if (part.rows_left != 0)
+            return fail(ErrorCode::Io, std::to_string(part.rows_left) + " rows were never written",
+                        state.file.target());
+        if (part.zip)
+            OSIO_CHECK_OK(state.guarded([&] { part.zip->finish(); }));
+    }
+    state.output.reset();   // writes the table of chunks
+    state.outputs.reset();  // writes the tables
     if (state.stream.file().close() != 0)
         return fail(ErrorCode::Io, "cannot be written: " + state.stream.file().failure(),
                     state.file.target());

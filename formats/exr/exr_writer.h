@@ -21,7 +21,13 @@ namespace osio::exr {
 /// programs; in a plugin the host says.
 void set_compression_threads(unsigned count);
 
-/// Writes a scanline OpenEXR file, rows from top to bottom, into a temporary beside the target that
+/// A scanline part of a file.
+struct OutputPart {
+    Imf::Header header;  ///< windows, compression and attributes; of several parts also a name
+    std::vector<OutputChannel> channels;
+};
+
+/// Writes a scanline OpenEXR file of one or several parts, each part's rows from top to bottom, into a temporary beside the target that
 /// takes the target's place in finish(). Until then, and where anything fails, the old file stays
 /// and the temporary goes away. ZIP and ZIPS are packed by libdeflate, at the header's level, on the
 /// caller's threads; the others by OpenEXR.
@@ -30,6 +36,10 @@ class ExrWriter {
     /// `header` gives windows, compression and attributes; its channels are replaced.
     [[nodiscard]] static Result<std::unique_ptr<ExrWriter>>
     create(const std::string& path, Imf::Header header, std::span<const OutputChannel> channels);
+
+    /// The same for several parts.
+    [[nodiscard]] static Result<std::unique_ptr<ExrWriter>> create(const std::string& path,
+                                                                   std::vector<OutputPart> parts);
 
     ExrWriter(const ExrWriter&) = delete;
     ExrWriter& operator=(const ExrWriter&) = delete;
@@ -48,9 +58,9 @@ class ExrWriter {
         [[nodiscard]] virtual Result<void> write() = 0;
     };
 
-    [[nodiscard]] std::unique_ptr<Packer> start_packer();
+    [[nodiscard]] std::unique_ptr<Packer> start_packer(std::size_t part = 0);
 
-    /// The next rows; one ChannelRows for each channel, in the order given to create(). With a runner
+    /// The next rows of the first part; one ChannelRows for each channel, in the order given to create(). With a runner
     /// the work is spread over its workers.
     [[nodiscard]] Result<void> write_rows(int row_count, std::span<const ChannelRows> channels,
                                           Runner* runner = nullptr);
@@ -68,11 +78,12 @@ class ExrWriter {
     std::unique_ptr<State> m_state;
 };
 
-/// Takes rows of floats into an OpenEXR file of half or float channels. What exceeds +-65504 becomes
+/// Takes rows of floats into a part of half or float channels. What exceeds +-65504 becomes
 /// +-65504 in half, and is counted; NaN stays NaN.
 class ExrSink final : public RowSink {
   public:
-    ExrSink(std::unique_ptr<ExrWriter> writer, SampleType type, int width);
+    /// `width`: of the part's data window, in pixels. The writer is finished when all its parts are.
+    ExrSink(std::shared_ptr<ExrWriter> writer, SampleType type, int width, std::size_t part = 0);
 
     [[nodiscard]] Result<void> write_rows(int first_row, int row_count,
                                           std::span<const float* const> planes) override;
@@ -90,7 +101,8 @@ class ExrSink final : public RowSink {
   private:
     class Worker;
 
-    std::unique_ptr<ExrWriter> m_writer;
+    std::shared_ptr<ExrWriter> m_writer;
+    std::size_t m_part;
     SampleType m_type;
     std::size_t m_width;
     std::uint64_t m_clamped = 0;

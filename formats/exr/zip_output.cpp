@@ -1,43 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <formats/exr/header_output.h>
 #include <formats/exr/zip_output.h>
 
-#include <OpenEXR/ImfChannelList.h>
-#include <OpenEXR/ImfVersion.h>
-
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <limits>
 #include <numeric>
 #include <stdexcept>
-#include <string_view>
 
 namespace osio::exr {
 
 namespace {
-
-/// Names of more bytes need a flag in the file's version field (OpenEXR's file layout, "Version field").
-constexpr std::size_t kShortName = 31;
-
-bool has_long_names(const Imf::Header& header) {
-    for (auto a = header.begin(); a != header.end(); ++a)
-        if (std::string_view(a.name()).size() > kShortName ||
-            std::string_view(a.attribute().typeName()).size() > kShortName)
-            return true;
-    for (auto c = header.channels().begin(); c != header.channels().end(); ++c)
-        if (std::string_view(c.name()).size() > kShortName)
-            return true;
-    return false;
-}
-
-/// Little-endian, whatever the machine.
-template <class Number>
-void write_number(Imf::OStream& stream, Number value) {
-    std::array<char, sizeof(Number)> bytes{};
-    for (std::size_t i = 0; i < bytes.size(); ++i)
-        bytes[i] = static_cast<char>(static_cast<std::uint64_t>(value) >> (8 * i) & 0xFF);
-    stream.write(bytes.data(), static_cast<int>(bytes.size()));
-}
 
 template <std::size_t kBytes>
 void copy_samples(const std::byte* from, std::ptrdiff_t stride, std::size_t count, std::uint8_t* to) {
@@ -55,13 +28,13 @@ bool ZipOutput::can_write(const Imf::Header& header) {
     return header.compression() == Imf::ZIP_COMPRESSION || header.compression() == Imf::ZIPS_COMPRESSION;
 }
 
-ZipOutput::ZipOutput(Imf::OStream& stream, const Imf::Header& header, std::span<const OutputChannel> channels)
-    : m_stream(stream), m_order(channels.size()), m_first_row(header.dataWindow().min.y),
+ZipOutput::ZipOutput(Imf::OStream& stream, const Imf::Header& header, std::span<const OutputChannel> channels,
+                     std::optional<std::uint32_t> part)
+    : m_stream(stream), m_part(part), m_order(channels.size()), m_first_row(header.dataWindow().min.y),
       m_end_row(header.dataWindow().max.y + 1),
       m_lines(header.compression() == Imf::ZIP_COMPRESSION ? 16 : 1), m_level(header.zipCompressionLevel()),
       m_width(static_cast<std::size_t>(header.dataWindow().max.x - header.dataWindow().min.x + 1)),
       m_next_row(m_first_row), m_encoder(m_level) {
-    header.sanityCheck(false);
     std::iota(m_order.begin(), m_order.end(), std::size_t{0});
     std::sort(m_order.begin(), m_order.end(),
               [&](std::size_t a, std::size_t b) { return channels[a].name < channels[b].name; });
@@ -71,10 +44,9 @@ ZipOutput::ZipOutput(Imf::OStream& stream, const Imf::Header& header, std::span<
     }
     if (m_line_bytes > std::numeric_limits<std::int32_t>::max() / static_cast<std::size_t>(m_lines))
         throw std::runtime_error("a chunk of " + std::to_string(m_lines) + " lines would exceed 2 GB");
-    write_number(m_stream, std::uint32_t{Imf::MAGIC});
-    const int flags = has_long_names(header) ? Imf::LONG_NAMES_FLAG : 0;
-    write_number(m_stream, static_cast<std::uint32_t>(Imf::EXR_VERSION | flags));
-    header.writeTo(m_stream, false);
+}
+
+void ZipOutput::reserve_table() {
     m_table_position = m_stream.tellp();
     const int chunks = (m_end_row - m_first_row + m_lines - 1) / m_lines;
     for (int chunk = 0; chunk < chunks; ++chunk)
@@ -152,6 +124,8 @@ void ZipOutput::append(const PackedRows& rows) {
 
 void ZipOutput::write_chunk(int first_row, std::span<const std::uint8_t> packed) {
     m_table.push_back(m_stream.tellp());
+    if (m_part)
+        write_number(m_stream, *m_part);
     write_number(m_stream, static_cast<std::uint32_t>(first_row));
     write_number(m_stream, static_cast<std::uint32_t>(packed.size()));
     m_stream.write(reinterpret_cast<const char*>(packed.data()), static_cast<int>(packed.size()));

@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -31,16 +32,19 @@ struct PackedRows {
     std::vector<std::uint8_t> samples;  ///< of the chunk in work
 };
 
-/// A scanline file of one part in ZIP or ZIPS: OpenEXR's C++ API writes the header, the chunks are
-/// ours. Packing is for any thread; appending is in the order of rows. Throws std::runtime_error where
-/// the stream does.
+/// The chunks of a scanline part in ZIP or ZIPS, and their table. Packing is for any thread; appending is
+/// in the order of rows. Throws std::runtime_error where the stream does.
 class ZipOutput {
   public:
     /// True where the class can write the header's compression.
     [[nodiscard]] static bool can_write(const Imf::Header& header);
 
-    /// Writes the header and room for the table of chunks.
-    ZipOutput(Imf::OStream& stream, const Imf::Header& header, std::span<const OutputChannel> channels);
+    /// `part`: the number of the part where the file has several.
+    ZipOutput(Imf::OStream& stream, const Imf::Header& header, std::span<const OutputChannel> channels,
+              std::optional<std::uint32_t> part);
+
+    /// Writes room for the table of chunks, where the stream stands.
+    void reserve_table();
 
     /// Rows of each channel, in the order given to the constructor.
     void pack(int first_row, int row_count, std::span<const ChannelRows> channels, ZipEncoder& encoder,
@@ -64,6 +68,7 @@ class ZipOutput {
     void write_chunk(int first_row, std::span<const std::uint8_t> packed);
 
     Imf::OStream& m_stream;
+    std::optional<std::uint32_t> m_part;
     std::vector<std::size_t> m_order;  ///< channels as the file has them, sorted by name
     std::vector<std::size_t> m_sample_bytes;
     int m_first_row;

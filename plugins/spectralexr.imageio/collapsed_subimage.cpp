@@ -55,7 +55,7 @@ class CollapsedSubimage final : public Subimage {
 
 }  // namespace
 
-Result<std::unique_ptr<Subimage>> make_collapsed_subimage(exr::CollapseJob job) {
+Result<std::unique_ptr<Subimage>> make_collapsed_subimage(exr::CollapseJob job, int subimage_count) {
     OIIO::ImageSpec spec = spec_of_windows(job.part());
     spec.format = OIIO::TypeFloat;
     spec.channelnames = job.channel_names();
@@ -63,7 +63,9 @@ Result<std::unique_ptr<Subimage>> make_collapsed_subimage(exr::CollapseJob job) 
     if (job.alpha)
         spec.alpha_channel = spec.nchannels - 1;
     add_metadata(exr::collapsed_header(job), spec);
-    spec.attribute("oiio:subimages", 1);
+    spec.attribute("oiio:subimages", subimage_count);
+    if (subimage_count > 1)
+        spec.attribute("oiio:subimagename", job.plan.request.illuminant);
     OSIO_TRY(auto source, job.open_source());
     return std::make_unique<CollapsedSubimage>(std::move(spec), std::move(source), std::move(job));
 }

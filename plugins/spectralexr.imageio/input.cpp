@@ -103,9 +103,11 @@ Result<void> SpectralExrInput::load(const std::string& name, const OIIO::ImageSp
     OSIO_TRY(auto file, exr::ExrFile::open(open.path));
     if (!open.request.to)
         return add_raw_subimages(file, open.request);
-    OSIO_TRY(auto job, exr::prepare_collapse(std::move(file), open.request, files::text_loader({})));
-    OSIO_TRY(auto subimage, make_collapsed_subimage(std::move(job)));
-    m_subimages.push_back(std::move(subimage));
+    OSIO_TRY(auto jobs, exr::prepare_collapses(file, open.request, files::text_loader({})));
+    for (exr::CollapseJob& job : jobs) {
+        OSIO_TRY(auto subimage, make_collapsed_subimage(std::move(job), static_cast<int>(jobs.size())));
+        m_subimages.push_back(std::move(subimage));
+    }
     return {};
 }
 

@@ -49,7 +49,9 @@ class Subimage {
                                                                   std::size_t part, BandNames names,
                                                                   int subimage_count);
 
-/// A part's bands as three channels of a space, and alpha.
-[[nodiscard]] Result<std::unique_ptr<Subimage>> make_collapsed_subimage(exr::CollapseJob job);
+/// A part's bands as channels of a space, and alpha; one of `subimage_count`, one a light, that the host
+/// sees, and then named by its light.
+[[nodiscard]] Result<std::unique_ptr<Subimage>> make_collapsed_subimage(exr::CollapseJob job,
+                                                                        int subimage_count);
 
 }  // namespace osio::plugin

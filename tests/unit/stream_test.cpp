@@ -4,6 +4,7 @@
 #include <support/sets.h>
 
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <mutex>
@@ -156,6 +157,47 @@ TEST(CollapseStream, ResultDoesNotDependOnWorkersBlocksOrRange) {
                     EXPECT_TRUE(
                         std::equal(part.rows[p].begin(), part.rows[p].end(), expected[p].begin() + 7 * 13));
             }
+}
+
+TEST(CollapseStream, SeveralPlansAreWhatEachWouldBeAndReadOnce) {
+    std::vector<CollapsePlan> plans;
+    for (const char* request : {"to=srgb&white=A", "to=lab", "to=xyz&extrapolate=zero", "to=luminance"})
+        plans.push_back(plan_of(set_of(Family::S0, kGrid), request).value());
+    MemorySource source(13, 40, 7, kGrid.size() + 1);
+    source.m_data[2][100] = std::numeric_limits<float>::quiet_NaN();
+    const int top = MemorySource::kTop;
+    const RowRange rows{top + 3, top + 31};
+    TestRunner runner(3, true);
+    std::vector<MemorySink> together(plans.size(), MemorySink(13, top + 3));
+    std::vector<CollapseTarget> targets;
+    for (std::size_t i = 0; i < plans.size(); ++i)
+        targets.push_back({plans[i], together[i]});
+    const auto counts = collapse_stream(source, targets, true, rows, runner, {});
+    ASSERT_TRUE(counts);
+    EXPECT_EQ(source.reads,
+              static_cast<int>(source.block_of_row(rows.last) - source.block_of_row(rows.first) + 1));
+    const auto bits = [](const std::vector<float>& plane) {
+        std::vector<std::uint32_t> out;
+        for (const float sample : plane)
+            out.push_back(std::bit_cast<std::uint32_t>(sample));
+        return out;
+    };
+    for (std::size_t i = 0; i < plans.size(); ++i) {
+        MemorySink alone(13, top + 3);
+        const auto count = collapse_stream(source, plans[i], true, rows, alone, runner, {});
+        ASSERT_TRUE(count);
+        EXPECT_EQ((*counts)[i].nan, count->nan);
+        EXPECT_EQ((*counts)[i].negative, count->negative);
+        EXPECT_EQ((*counts)[i].pixels, count->pixels);
+        ASSERT_EQ(together[i].rows.size(), alone.rows.size());
+        for (std::size_t plane = 0; plane < alone.rows.size(); ++plane)
+            EXPECT_EQ(bits(together[i].rows[plane]), bits(alone.rows[plane])) << i;
+    }
+    // A sink that fails ends it for all.
+    std::vector<MemorySink> failing(2, MemorySink(13, top + 3));
+    failing[1].bad_row = top + 8;
+    const std::vector<CollapseTarget> two{{plans[0], failing[0]}, {plans[1], failing[1]}};
+    EXPECT_EQ(collapse_stream(source, two, true, rows, runner, {}).error().code, ErrorCode::Io);
 }
 
 TEST(CollapseStream, AlphaPassesThroughAndLinearColourIsNotTouchedByIt) {

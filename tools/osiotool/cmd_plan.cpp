@@ -11,8 +11,12 @@ namespace osio::tool {
 
 Result<ExitCode> run_plan(const PlanOptions& options) {
     OSIO_TRY(const CollapseRequest request, request_of(options.request));
-    OSIO_TRY(const auto job, exr::open_collapse(options.input, request, files::text_loader({})));
-    fmt::print("{}", options.json ? plan_json(job) : plan_text(job));
+    OSIO_TRY(const auto jobs, exr::open_collapses(options.input, request, files::text_loader({})));
+    if (options.json)
+        fmt::print("{}", plans_json(jobs));
+    else
+        for (std::size_t i = 0; i < jobs.size(); ++i)
+            fmt::print("{}{}", i == 0 ? "" : "\n", plan_text(jobs[i]));
     return kDone;
 }
 

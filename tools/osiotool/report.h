@@ -86,10 +86,13 @@ struct LightOutcome {
 [[nodiscard]] std::string info_json(const exr::ExrFile& file);
 
 [[nodiscard]] std::string plan_text(const exr::CollapseJob& job);
-[[nodiscard]] std::string plan_json(const exr::CollapseJob& job);
+/// One plan as an object, several as the array of an object's `plans`.
+[[nodiscard]] std::string plans_json(const std::vector<exr::CollapseJob>& jobs);
 
 [[nodiscard]] std::string outcome_text(const exr::CollapseJob& job, const CollapseOutcome& outcome);
-[[nodiscard]] std::string outcome_json(const exr::CollapseJob& job, const CollapseOutcome& outcome);
+/// One outcome as an object, several as the array of an object's `outputs`.
+[[nodiscard]] std::string outcomes_json(const std::vector<exr::CollapseJob>& jobs,
+                                        const std::vector<CollapseOutcome>& outcomes);
 
 [[nodiscard]] std::string verify_text(const FileSoundness& file);
 [[nodiscard]] std::string verify_json(const std::vector<FileSoundness>& files);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tools/osiotool/report.h>
 
+#include <osio/collapse/basis_spread.h>
+
 #include <nlohmann/json.hpp>
 
 namespace osio::tool {
@@ -70,6 +72,13 @@ std::string curve_name(const OutputSpace& space) {
     return space.transfer == Transfer::Srgb ? "srgb" : "linear";
 }
 
+Json spread_json(const CollapsePlan& plan) {
+    Json out = Json::object();
+    for (const BasisSpread& spread : basis_spread(plan))
+        out[std::string(basis_name(spread.basis))] = {{"mean", spread.mean}, {"max", spread.max}};
+    return out;
+}
+
 Json plan_object(const exr::CollapseJob& job) {
     const CollapsePlan& plan = job.plan;
     Json weights = Json::array(), channels = Json::array();
@@ -98,6 +107,7 @@ Json plan_object(const exr::CollapseJob& job) {
             {"display", plan.display ? Json(plan.display->path) : Json(nullptr)},
             {"basis", basis_name(plan.basis.basis)},
             {"basis_reason", plan.basis.reason},
+            {"basis_spread", spread_json(plan)},
             {"quadrature", plan.quadrature == Quadrature::Sum1nm ? "sum1nm" : "exact"},
             {"extrapolate", extrapolation_name(plan.request.extrapolation)},
             {"scale", scale_name(plan.request.scale)},
@@ -140,6 +150,26 @@ Json soundness_json(const FileSoundness& file) {
             {"checksum", file.checksum()},
             {"failure", file.failure ? Json(file.failure->what) : Json(nullptr)},
             {"parts", std::move(parts)}};
+}
+
+Json outcome_object(const exr::CollapseJob& job, const CollapseOutcome& outcome) {
+    return {{"input", job.file->path()},
+            {"output", outcome.output},
+            {"type", outcome.type},
+            {"width", job.part().data_window.width()},
+            {"height", job.part().data_window.height()},
+            {"channel_names", job.channel_names()},
+            {"pixels", outcome.counts.pixels},
+            {"nan_pixels", outcome.counts.nan},
+            {"infinite_pixels", outcome.counts.infinite},
+            {"negative_pixels", outcome.counts.negative},
+            {"clipped_pixels", outcome.clipped_pixels},
+            {"clamped_samples", outcome.clamped_samples},
+            {"missing_rows", rows_json(outcome.missing)},
+            {"seconds", outcome.seconds},
+            {"recipe", recipe_text(job.plan.request)},
+            {"id", job.plan.id},
+            {"warnings", job.warnings}};
 }
 
 /// Text from files may hold bytes that are no UTF-8; they are replaced rather than refused.
@@ -214,8 +244,11 @@ std::string info_json(const exr::ExrFile& file) {
     return dump({{"file", file.path()}, {"parts", std::move(parts)}});
 }
 
-std::string plan_json(const exr::CollapseJob& job) {
-    return dump(plan_object(job));
+std::string plans_json(const std::vector<exr::CollapseJob>& jobs) {
+    Json plans = Json::array();
+    for (const exr::CollapseJob& job : jobs)
+        plans.push_back(plan_object(job));
+    return dump(jobs.size() == 1 ? plans.front() : Json{{"plans", std::move(plans)}});
 }
 
 std::string verify_json(const std::vector<FileSoundness>& files) {
@@ -225,24 +258,12 @@ std::string verify_json(const std::vector<FileSoundness>& files) {
     return dump({{"files", std::move(out)}});
 }
 
-std::string outcome_json(const exr::CollapseJob& job, const CollapseOutcome& outcome) {
-    return dump({{"input", job.file->path()},
-                 {"output", outcome.output},
-                 {"type", outcome.type},
-                 {"width", job.part().data_window.width()},
-                 {"height", job.part().data_window.height()},
-                 {"channel_names", job.channel_names()},
-                 {"pixels", outcome.counts.pixels},
-                 {"nan_pixels", outcome.counts.nan},
-                 {"infinite_pixels", outcome.counts.infinite},
-                 {"negative_pixels", outcome.counts.negative},
-                 {"clipped_pixels", outcome.clipped_pixels},
-                 {"clamped_samples", outcome.clamped_samples},
-                 {"missing_rows", rows_json(outcome.missing)},
-                 {"seconds", outcome.seconds},
-                 {"recipe", recipe_text(job.plan.request)},
-                 {"id", job.plan.id},
-                 {"warnings", job.warnings}});
+std::string outcomes_json(const std::vector<exr::CollapseJob>& jobs,
+                          const std::vector<CollapseOutcome>& outcomes) {
+    Json outputs = Json::array();
+    for (std::size_t i = 0; i < jobs.size(); ++i)
+        outputs.push_back(outcome_object(jobs[i], outcomes[i]));
+    return dump(jobs.size() == 1 ? outputs.front() : Json{{"outputs", std::move(outputs)}});
 }
 
 }  // namespace osio::tool

@@ -3,6 +3,7 @@
 #include <tools/osiotool/text_table.h>
 
 #include <osio/base/text.h>
+#include <osio/collapse/basis_spread.h>
 
 #include <fmt/format.h>
 
@@ -132,6 +133,9 @@ std::string plan_text(const exr::CollapseJob& job) {
                            : "exact integral over 360-830 nm (bands closer than 1 nm)",
                        extrapolation_name(plan.request.extrapolation));
     out += fmt::format("basis        {}: {}\n", basis_name(plan.basis.basis), plan.basis.reason);
+    for (const BasisSpread& spread : basis_spread(plan))
+        out += fmt::format("  if {:<14} {:.2f} dE2000 mean, {:.2f} max, over the ColorChecker\n",
+                           basis_name(spread.basis), spread.mean, spread.max);
     for (const Filter& filter : plan.filters)
         out += fmt::format("filter       {}\n", filter.path);
     if (plan.display)

@@ -90,6 +90,10 @@ BasisChoice suggested(const SpectralSet& set, const BandGrid& grid) {
 
 }  // namespace
 
+bool basis_fits(Basis basis, const BandGrid& grid) {
+    return basis != Basis::Auto && check_fits(basis, grid) && !fitted(basis, {}, grid).warning;
+}
+
 DistinctBands distinct_bands(const SpectralSet& set, const SpectralMetadata& metadata) {
     DistinctBands out;
     BandGrid& grid = out.grid;

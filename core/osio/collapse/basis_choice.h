@@ -38,6 +38,9 @@ struct BasisChoice {
     std::optional<std::string> warning;
 };
 
+/// True where a basis other than Auto can be used on a grid as it is, without falling back to Linear.
+[[nodiscard]] bool basis_fits(Basis basis, const BandGrid& grid);
+
 /// The fewest bands for which Auto corrects bins: with fewer, spectral lines make the slopes that
 /// neighbours tell wrong (docs/accuracy.md).
 inline constexpr std::size_t kFewestCorrectedBins = 13;

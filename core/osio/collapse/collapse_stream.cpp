@@ -38,11 +38,59 @@ class DirectWorker final : public RowWorker {
 
 /// What all workers of one collapse share. `counts` belongs to deliver(), one call at a time.
 struct Collapse {
-    const CollapsePlan& plan;
+    std::span<const CollapseTarget> targets;
+    WeightMatrix weights;  ///< the rows of all plans
     bool has_alpha = false;
     std::size_t width = 0;
     RowRange rows;
-    RowSink& sink;
+    std::vector<CollapseCounts> counts;
+};
+
+/// 1 for NaN, plus 2 for an infinity, plus 4 for what is below zero.
+std::uint32_t oddness(float value) {
+    constexpr std::uint32_t kInfinity = 0x7F800000;
+    const auto bits = std::bit_cast<std::uint32_t>(value);
+    const std::uint32_t magnitude = bits & 0x7FFFFFFF;
+    const std::uint32_t nan = magnitude > kInfinity;
+    const std::uint32_t infinite = magnitude == kInfinity;
+    const std::uint32_t negative = (bits >> 31) & (nan ^ 1) & (magnitude != 0);
+    return nan | infinite << 1 | negative << 2;
+}
+
+/// In integers and short runs, which compilers turn into vectors.
+CollapseCounts count(std::span<const float* const> planes, std::uint64_t pixels) {
+    constexpr std::size_t kRun = 1024;
+    CollapseCounts counts;
+    counts.pixels = pixels;
+    std::array<std::uint32_t, kRun> flags;
+    for (std::size_t first = 0; first < pixels; first += kRun) {
+        const std::size_t run = std::min<std::size_t>(kRun, pixels - first);
+        flags.fill(0);
+        for (const float* plane : planes)
+            for (std::size_t i = 0; i < run; ++i)
+                flags[i] |= oddness(plane[first + i]);
+        std::uint32_t nan = 0, infinite = 0, negative = 0;
+        for (std::size_t i = 0; i < run; ++i) {
+            nan += flags[i] & 1;
+            infinite += flags[i] >> 1 & 1;
+            negative += flags[i] >> 2;
+        }
+        counts.nan += nan;
+        counts.infinite += infinite;
+        counts.negative += negative;
+    }
+    return counts;
+}
+
+/// A worker's share of one target.
+struct Branch {
+    explicit Branch(const CollapseTarget& target)
+        : stage(target.plan.space, target.plan.white), outputs(target.plan.weights.rows()),
+          worker(target.sink.start_worker()) {}
+
+    PixelStage stage;
+    std::size_t outputs;
+    std::unique_ptr<RowWorker> worker;
     CollapseCounts counts;
 };
 
@@ -50,9 +98,10 @@ struct Collapse {
 class Collapser final : public BlockVisitor {
   public:
     explicit Collapser(Collapse& collapse)
-        : m_shared(collapse), m_plan(collapse.plan), m_stage(collapse.plan.space, collapse.plan.white),
-          m_worker(collapse.sink.start_worker()),
-          m_planes(collapse.plan.weights.rows() + (collapse.has_alpha ? 1 : 0)) {}
+        : m_shared(collapse), m_planes(collapse.weights.rows() + (collapse.has_alpha ? 1 : 0)) {
+        for (const CollapseTarget& target : collapse.targets)
+            m_branches.emplace_back(target);
+    }
 
     void process(const PlanarBlock& block) override {
         const std::size_t pixels = static_cast<std::size_t>(block.row_count) * m_shared.width;
@@ -61,84 +110,59 @@ class Collapser final : public BlockVisitor {
             plane.resize(pixels);
             m_pointers.push_back(plane.data());
         }
-        const std::size_t rows = m_plan.weights.rows();
-        const std::span<const BandView> bands(block.planes.data(), m_plan.bands.size());
-        collapse_run(bands, m_plan.weights, pixels, std::span(m_pointers).first(rows));
+        const std::size_t rows = m_shared.weights.rows();
+        const std::span<const BandView> bands(block.planes.data(), m_shared.weights.bands());
+        collapse_run(bands, m_shared.weights, pixels, std::span(m_pointers).first(rows));
         if (m_shared.has_alpha)
             for (std::size_t pixel = 0; pixel < pixels; ++pixel)
                 m_planes.back()[pixel] = static_cast<float>(sample_at(block.planes.back(), pixel));
-        if (m_stage.needed())
-            m_stage.apply(std::span(m_pointers).first<3>(),
-                          m_shared.has_alpha ? m_planes.back().data() : nullptr, pixels);
         m_first_row = std::max(m_shared.rows.first, block.first_row);
         m_row_count = std::min(m_shared.rows.last, block.first_row + block.row_count - 1) - m_first_row + 1;
-        const std::vector<const float*> planes = rows_of(block);
-        m_counts = count(planes);
-        m_prepared = m_worker->prepare(m_first_row, m_row_count, planes);
+        m_prepared = {};
+        std::size_t first = 0;
+        for (Branch& branch : m_branches) {
+            if (m_prepared)
+                m_prepared = finish(branch, first, block, pixels);
+            first += branch.outputs;
+        }
     }
 
     [[nodiscard]] Result<void> deliver(const PlanarBlock&) override {
         OSIO_CHECK_OK(m_prepared);
-        m_shared.counts += m_counts;
-        return m_worker->deliver();
+        for (std::size_t i = 0; i < m_branches.size(); ++i) {
+            m_shared.counts[i] += m_branches[i].counts;
+            OSIO_CHECK_OK(m_branches[i].worker->deliver());
+        }
+        return {};
     }
 
   private:
-    /// The wanted rows of the last block, one pointer a channel.
-    [[nodiscard]] std::vector<const float*> rows_of(const PlanarBlock& block) const {
+    /// Turns the sums from plane `first` on into what the target's space means, and prepares its rows.
+    Result<void> finish(Branch& branch, std::size_t first, const PlanarBlock& block, std::size_t pixels) {
+        const std::span<float* const> sums(m_pointers.data() + first, branch.outputs);
+        if (branch.stage.needed())
+            branch.stage.apply(sums.first<3>(), m_shared.has_alpha ? m_planes.back().data() : nullptr,
+                               pixels);
         const std::size_t skip = static_cast<std::size_t>(m_first_row - block.first_row) * m_shared.width;
-        std::vector<const float*> out;
-        for (const float* plane : m_pointers)
-            out.push_back(plane + skip);
-        return out;
-    }
-
-    /// In integers and short runs, which compilers turn into vectors.
-    [[nodiscard]] CollapseCounts count(std::span<const float* const> planes) const {
-        constexpr std::size_t kRun = 1024;
-        CollapseCounts counts;
-        counts.pixels = static_cast<std::uint64_t>(m_row_count) * m_shared.width;
-        std::array<std::uint32_t, kRun> flags;
-        for (std::size_t first = 0; first < counts.pixels; first += kRun) {
-            const std::size_t run = std::min(kRun, counts.pixels - first);
-            flags.fill(0);
-            for (std::size_t row = 0; row < m_plan.weights.rows(); ++row)
-                for (std::size_t i = 0; i < run; ++i)
-                    flags[i] |= oddness(planes[row][first + i]);
-            std::uint32_t nan = 0, infinite = 0, negative = 0;
-            for (std::size_t i = 0; i < run; ++i) {
-                nan += flags[i] & 1;
-                infinite += flags[i] >> 1 & 1;
-                negative += flags[i] >> 2;
-            }
-            counts.nan += nan;
-            counts.infinite += infinite;
-            counts.negative += m_stage.negative_is_outside() ? negative : 0;
-        }
-        return counts;
-    }
-
-    /// 1 for NaN, plus 2 for an infinity, plus 4 for what is below zero.
-    static std::uint32_t oddness(float value) {
-        constexpr std::uint32_t kInfinity = 0x7F800000;
-        const auto bits = std::bit_cast<std::uint32_t>(value);
-        const std::uint32_t magnitude = bits & 0x7FFFFFFF;
-        const std::uint32_t nan = magnitude > kInfinity;
-        const std::uint32_t infinite = magnitude == kInfinity;
-        const std::uint32_t negative = (bits >> 31) & (nan ^ 1) & (magnitude != 0);
-        return nan | infinite << 1 | negative << 2;
+        m_rows.clear();
+        for (const float* plane : sums)
+            m_rows.push_back(plane + skip);
+        branch.counts = count(m_rows, static_cast<std::uint64_t>(m_row_count) * m_shared.width);
+        if (!branch.stage.negative_is_outside())
+            branch.counts.negative = 0;
+        if (m_shared.has_alpha)
+            m_rows.push_back(m_planes.back().data() + skip);
+        return branch.worker->prepare(m_first_row, m_row_count, m_rows);
     }
 
     Collapse& m_shared;
-    const CollapsePlan& m_plan;
-    PixelStage m_stage;
-    std::unique_ptr<RowWorker> m_worker;
+    std::vector<Branch> m_branches;
     Result<void> m_prepared;
     std::vector<std::vector<float>> m_planes;
     std::vector<float*> m_pointers;
+    std::vector<const float*> m_rows;
     int m_first_row = 0;
     int m_row_count = 0;
-    CollapseCounts m_counts;
 };
 
 }  // namespace
@@ -155,13 +179,24 @@ CollapseCounts& CollapseCounts::operator+=(const CollapseCounts& other) {
     return *this;
 }
 
+Result<std::vector<CollapseCounts>> collapse_stream(const BlockSource& source,
+                                                    std::span<const CollapseTarget> targets, bool has_alpha,
+                                                    RowRange rows, Runner& runner, const Progress& progress) {
+    Collapse collapse{targets, {}, has_alpha, static_cast<std::size_t>(source.width()), rows, {}};
+    for (const CollapseTarget& target : targets)
+        collapse.weights.append(target.plan.weights);
+    collapse.counts.resize(targets.size());
+    const auto start = [&] { return std::make_unique<Collapser>(collapse); };
+    OSIO_CHECK_OK(visit_blocks(source, rows, runner, start, progress));
+    return std::move(collapse.counts);
+}
+
 Result<CollapseCounts> collapse_stream(const BlockSource& source, const CollapsePlan& plan, bool has_alpha,
                                        RowRange rows, RowSink& sink, Runner& runner,
                                        const Progress& progress) {
-    Collapse collapse{plan, has_alpha, static_cast<std::size_t>(source.width()), rows, sink, {}};
-    const auto start = [&] { return std::make_unique<Collapser>(collapse); };
-    OSIO_CHECK_OK(visit_blocks(source, rows, runner, start, progress));
-    return collapse.counts;
+    const CollapseTarget target{plan, sink};
+    OSIO_TRY(const auto counts, collapse_stream(source, {&target, 1}, has_alpha, rows, runner, progress));
+    return counts.front();
 }
 
 }  // namespace osio

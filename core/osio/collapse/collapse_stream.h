@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 namespace osio {
 
@@ -48,10 +49,25 @@ struct CollapseCounts {
     CollapseCounts& operator+=(const CollapseCounts& other);
 };
 
-/// Collapses the blocks that hold `rows` and hands the rows to `sink`. The source's planes are the
-/// plan's bands in the plan's order (null where no output needs one), then alpha where `has_alpha`;
-/// the sink gets the plan's outputs, then alpha as it was. Colour stays associated with alpha: a
-/// space with a curve is encoded from unassociated colour and associated again.
+/// A plan and where its rows go.
+struct CollapseTarget {
+    const CollapsePlan& plan;
+    RowSink& sink;
+};
+
+/// Collapses the blocks that hold `rows` and hands the rows to the sinks. The source's planes are the
+/// plans' bands in the plans' order (null where no output of any needs one), then alpha where
+/// `has_alpha`; each sink gets its plan's outputs, then alpha as it was. Colour stays associated with
+/// alpha: a space with a curve is encoded from unassociated colour and associated again.
+///
+/// All plans must be for the same bands, as those of one request under several lights are: each block
+/// is decoded and gone over once for all of them. Counts come in the order of the targets.
+[[nodiscard]] Result<std::vector<CollapseCounts>> collapse_stream(const BlockSource& source,
+                                                                  std::span<const CollapseTarget> targets,
+                                                                  bool has_alpha, RowRange rows,
+                                                                  Runner& runner, const Progress& progress);
+
+/// The same for one plan.
 [[nodiscard]] Result<CollapseCounts> collapse_stream(const BlockSource& source, const CollapsePlan& plan,
                                                      bool has_alpha, RowRange rows, RowSink& sink,
                                                      Runner& runner, const Progress& progress);

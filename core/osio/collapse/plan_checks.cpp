@@ -57,6 +57,10 @@ Result<void> check_quantity(const SpectralSet& set, const CollapseRequest& reque
                     "set " + set.name() +
                         " is a reflectance, which has no colour without a light; name one with "
                         "illuminant=D65 (osiotool list illuminants)");
+    if (request.illuminant.find(',') != std::string::npos)
+        return fail(ErrorCode::Usage, "found several lights, illuminant=" + request.illuminant +
+                                          ", where one is expected; only collapse, plan and open files take "
+                                          "more");
     if (set.quantity() == Quantity::Radiance && !request.illuminant.empty())
         return fail(ErrorCode::UnexpectedIlluminant,
                     "set " + set.name() +

@@ -20,7 +20,7 @@ constexpr std::string_view kRaw = "raw";
 constexpr auto kOptions = std::to_array<RequestOption>({
     {"to", "SPACE",
      "space to collapse to (list spaces; rgb:xr,yr,xg,yg,xb,yb,xw,yw); raw: the bands themselves"},
-    {"illuminant", "NAME|FILE.csv", "light on a reflectance (list illuminants)"},
+    {"illuminant", "NAME|FILE.csv", "light on a reflectance, or several between commas (list illuminants)"},
     {"filter", "FILE.csv", "transmittance in front of the light; repeatable"},
     {"filter-normalise", "", "make the diffuser behind the filters Y = 1, instead of darker"},
     {"observer", "NAME|FILE.csv", "observer (list observers) or a camera's sensitivities; default cie1931"},
@@ -214,6 +214,20 @@ std::optional<Basis> find_basis(std::string_view name) {
         if (iequals(info.name, name))
             return info.basis;
     return std::nullopt;
+}
+
+Result<std::vector<CollapseRequest>> requests_by_light(const CollapseRequest& request) {
+    std::vector<CollapseRequest> out;
+    for (const std::string_view light : split(request.illuminant, ',')) {
+        CollapseRequest one = request;
+        one.illuminant = trim(light);
+        if (one.illuminant.empty() && !request.illuminant.empty())
+            return fail(ErrorCode::Usage, "illuminant \"" + request.illuminant +
+                                              "\" names nothing between two commas or at an end; expected "
+                                              "names between commas, such as A,D65,FL11");
+        out.push_back(std::move(one));
+    }
+    return out;
 }
 
 std::string_view scale_name(Scale scale) {

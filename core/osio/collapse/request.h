@@ -32,8 +32,8 @@ enum class Scale {
 /// Every choice of a collapse, defaulted in one place. The same words serve the command line, file
 /// queries, recipe files and host hints.
 struct CollapseRequest {
-    std::optional<OutputSpace> to;     ///< nothing: the bands themselves
-    std::string illuminant;            ///< a name or the path of a .csv; empty: none
+    std::optional<OutputSpace> to;  ///< nothing: the bands themselves
+    std::string illuminant;         ///< a name or the path of a .csv, or several between commas; empty: none
     std::vector<std::string> filters;  ///< paths of .csv, each in front of the light
     bool filter_normalise = false;     ///< the diffuser behind the filters has Y = 1
     std::string observer = "cie1931";  ///< a name, or the path of a camera's .csv
@@ -66,6 +66,10 @@ struct RequestOption {
 /// The request as `key=value&...`: every choice that matters to the result, defaults included, in a
 /// fixed order. Reading it back gives the same request.
 [[nodiscard]] std::string recipe_text(const CollapseRequest& request);
+
+/// The requests, one for each light, that a request for several lights means; itself for one or none.
+/// Usage for a light without a name.
+[[nodiscard]] Result<std::vector<CollapseRequest>> requests_by_light(const CollapseRequest& request);
 
 /// A basis and what it means, for people.
 struct BasisInfo {

@@ -38,6 +38,13 @@ class WeightMatrix {
         return false;
     }
 
+    /// Adds the rows of another matrix over the same bands; a matrix without rows takes any bands.
+    void append(const WeightMatrix& below) {
+        m_rows += below.m_rows;
+        m_bands = below.m_bands;
+        m_values.insert(m_values.end(), below.m_values.begin(), below.m_values.end());
+    }
+
   private:
     std::size_t m_rows = 0;
     std::size_t m_bands = 0;
