@@ -44,12 +44,16 @@ bool is_integer(StoredType type) {
     return type == StoredType::Uint8 || type == StoredType::Uint16;
 }
 
+/// True where equal steps of the values are equal steps of light.
+bool is_linear(const OutputSpace& space) {
+    return space.transform ? space.transform->is_linear() : space.transfer == Transfer::Linear;
+}
+
 /// The depth that was asked for, else float for linear values and EXR, 8 bits for encoded ones.
 Result<StoredType> choose_depth(const CollapseOptions& options, const OutputSpace& space) {
     StoredType type = StoredType::Float;
     if (options.depth.empty()) {
-        const bool encoded = space.transfer != Transfer::Linear;
-        type = !is_exr(options.output) && encoded ? StoredType::Uint8 : StoredType::Float;
+        type = !is_exr(options.output) && !is_linear(space) ? StoredType::Uint8 : StoredType::Float;
     } else {
         std::vector<std::string> names;
         bool found = false;
@@ -69,7 +73,7 @@ Result<StoredType> choose_depth(const CollapseOptions& options, const OutputSpac
     if (is_integer(type) && !is_tristimulus(space.kind))
         return fail(ErrorCode::Usage, space.id + " holds values beyond 0 to 1, which " +
                                           std::string(depth_name(type)) + " does not; use -d half or float");
-    if (is_integer(type) && space.transfer == Transfer::Linear && !options.raw)
+    if (is_integer(type) && is_linear(space) && !options.raw)
         return fail(ErrorCode::Usage,
                     space.id + " is linear, and " + std::string(depth_name(type)) +
                         " has too few steps for it in the shadows; use --to srgb, -d half, or --raw "
