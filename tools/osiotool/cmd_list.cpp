@@ -64,7 +64,8 @@ Result<void> print_spaces(const ListOptions& options) {
         return {};
     }
     if (config)
-        fmt::print("\nof the config {} ({}):\n{}", config->name(), config->file(), spaces_of(*config).text());
+        fmt::print("\nof the config {} ({}):\n{}", config->name().empty() ? "of no name" : config->name(),
+                   config->file(), spaces_of(*config).text());
     return {};
 }
 
