@@ -78,6 +78,13 @@ class Matrices(Bake):
         source, target = (chosen @ oracle_xyz(nm, light).T for light in ("D65", "FL11"))
         self.assertLess(np.abs(source @ np.array(report["matrix"]).T - target).max(), 1e-12)
 
+    def test_white_is_kept_where_asked(self):
+        nm = table("observers/cie1931.csv")["wavelength_nm"]
+        a, d65 = (oracle_xyz(nm, light).sum(axis=1) for light in ("A", "D65"))
+        words = ("relight", "--from", "D65", "--to", "A")
+        self.assertLess(np.abs(self.matrix(*words, "--keep-white") @ d65 - a).max(), 1e-12)
+        self.assertGreater(np.abs(self.matrix(*words) @ d65 - a).max(), 1e-3)
+
     def test_observer(self):
         nm, spectra = samples()
         source, target = (spectra @ oracle_xyz(nm, "D65", observer).T for observer in ("cie1931", "cie1964"))

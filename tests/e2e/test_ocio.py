@@ -2,6 +2,7 @@
 """Spaces of OCIO configs as outputs: by tool and plugin, in one pass, equal to two."""
 
 import os
+import shutil
 import unittest
 
 import numpy as np
@@ -118,6 +119,13 @@ class Doors(Ocio):
             self.assertEqual(spec.channelnames, ("R", "G", "B"))
             self.assertIsNone(spec.getattribute("chromaticities"))
             self.assertIn("osio", spec.get_string_attribute("spectral:ocio"))
+
+    def test_the_perfect_diffuser_is_one_in_every_linear_space_with_a_white(self):
+        self.write_exr("white.exr", {f"T.{nm}nm": np.ones((1, 1)) for nm in GRID})
+        for to in ("cie_xyz_e_scene", "ocio:acescg", "ocio:lin_rec709", "ocio:lin_p3d65", "ocio:lin_rec2020",
+                   "ocio:lin_adobergb", "ocio:lin_prophoto", "ocio:aces2065_1"):
+            white = self.collapse(to, "w.exr", "white.exr")[1]
+            self.assertLess(np.abs(white - 1).max(), 1e-5, f"{to}: {white}")
 
     def test_ours_comes_first(self):
         ours = self.collapse("ACEScg")[0]
@@ -239,6 +247,16 @@ class Loading(Ocio):
         linked = self.check("ldd", OSIOTOOL)
         self.assertNotIn("OpenColorIO", linked)
         self.assertNotIn("OpenImageIO", linked)
+
+    def test_without_its_module_only_what_needs_it_fails(self):
+        os.mkdir(self.path("bin"))
+        alone = self.path("bin/osiotool")
+        shutil.copy(OSIOTOOL, alone)
+        words = ("plan", "a.exr", "--illuminant", "A", "--config", CONFIG, "--to")
+        self.check(alone, *words, "acescg")
+        said = self.run_program(alone, *words, "acescct")
+        self.assertEqual(said.returncode, 5, said.stderr)
+        self.assertIn("OpenColorIO cannot be used: ", said.stderr)
 
 
 class StockBug(Ocio):

@@ -199,6 +199,8 @@ class CommandLine {
         word("observer", request.observer, "NAME", "of lights and cameras; default cie1931");
         word("reflectances", request.reflectances, "FILE.csv",
              "nm and spectra to fit to; default colorchecker");
+        command->add_flag("--keep-white", request.keep_white,
+                          "of fits: the perfect diffuser comes out exactly");
         word("adapt", m_bake.adapt, "NAME", "chromatic adaptation; default bradford");
         word("domain", m_bake.domain, "LOW,HIGH", "of .cube, which clips beyond; default 0,1");
         command->add_option("--size", m_bake.size, "of .cube: points along an edge; default 2")

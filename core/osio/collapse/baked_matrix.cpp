@@ -149,7 +149,8 @@ class Baker {
         OSIO_TRY(const Vector3 white, white_point(to, seen));
         OSIO_TRY(const ReflectanceSet set, reflectances());
         name("XYZ under " + from.id, "XYZ under " + to.id);
-        return fit(colours(set, from, seen, normalised_to_y(from, seen)),
+        OSIO_TRY(const Vector3 from_white, white_point(from, seen));
+        return fit({from_white, white}, colours(set, from, seen, normalised_to_y(from, seen)),
                    colours(set, to, seen, normalised_to_y(to, seen)), Matrix3::identity(), white);
     }
 
@@ -163,7 +164,8 @@ class Baker {
         OSIO_TRY(const ReflectanceSet set, reflectances());
         name("XYZ of " + from.id, "XYZ of " + to.id);
         m_out.title += ", under " + under.id;
-        return fit(colours(set, under, from, normalised_to_y(under, from)),
+        OSIO_TRY(const Vector3 from_white, white_point(under, from));
+        return fit({from_white, white}, colours(set, under, from, normalised_to_y(under, from)),
                    colours(set, under, to, normalised_to_y(under, to)), Matrix3::identity(), white);
     }
 
@@ -181,13 +183,18 @@ class Baker {
         name("R, G, B of " + camera.id + " balanced for " + under.id, to.id);
         const auto wanted =
             through(inverse(xyz_from(to)) * adapt, colours(set, under, seen, normalised_to_y(under, seen)));
-        return fit(colours(set, under, camera, balanced(under, camera)), wanted, xyz_from(to), white_of(to));
+        const Vector3 target_white = inverse(xyz_from(to)) * adapt * white;
+        return fit({{1, 1, 1}, target_white}, colours(set, under, camera, balanced(under, camera)), wanted,
+                   xyz_from(to), white_of(to));
     }
 
     /// Fits; the residual is of XYZ, which `to_xyz` makes of what was fitted.
-    Result<void> fit(const std::vector<Vector3>& from, const std::vector<Vector3>& to, const Matrix3& to_xyz,
-                     const Vector3& white) {
-        OSIO_TRY(m_out.matrix, fit_matrix(from, to));
+    Result<void> fit(const std::pair<Vector3, Vector3>& whites, const std::vector<Vector3>& from,
+                     const std::vector<Vector3>& to, const Matrix3& to_xyz, const Vector3& white) {
+        OSIO_TRY(m_out.matrix,
+                 m_request.keep_white ? fit_matrix_keeping(whites, from, to) : fit_matrix(from, to));
+        if (m_request.keep_white)
+            m_out.title += ", white kept";
         m_out.fitted_spectra = from.size();
         m_out.residual = residual_of(through(to_xyz * m_out.matrix, from), through(to_xyz, to), white);
         return {};

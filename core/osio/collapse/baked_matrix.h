@@ -32,6 +32,7 @@ struct MatrixRequest {
     std::string reflectances =
         "colorchecker";  ///< fitted to; or the path of a .csv: nm, one column a spectrum
     Adaptation adaptation = Adaptation::Bradford;
+    bool keep_white = false;  ///< of fits: the perfect diffuser comes out exactly
 };
 
 /// A table that took part.

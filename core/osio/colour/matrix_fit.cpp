@@ -21,10 +21,14 @@ double determinant(const Matrix3& m) {
            a[0][2] * (a[1][0] * a[2][1] - a[1][1] * a[2][0]);
 }
 
-}  // namespace
+/// The sums of t s^T and s s^T.
+struct Sums {
+    Matrix3 to_from, from_from;
+};
 
-Result<Matrix3> fit_matrix(std::span<const Vector3> from, std::span<const Vector3> to) {
-    Matrix3 to_from, from_from;  // sums of t s^T and s s^T
+Result<Sums> sums_of(std::span<const Vector3> from, std::span<const Vector3> to) {
+    Sums sums;
+    auto& [to_from, from_from] = sums;
     for (std::size_t i = 0; i < from.size(); ++i)
         for (std::size_t r = 0; r < 3; ++r)
             for (std::size_t c = 0; c < 3; ++c) {
@@ -38,7 +42,29 @@ Result<Matrix3> fit_matrix(std::span<const Vector3> from, std::span<const Vector
             std::to_string(from.size()) +
                 " spectra do not span the three dimensions of colour, so no matrix can be fitted; give "
                 "more that differ");
-    return to_from * inverse(from_from);
+    return sums;
+}
+
+}  // namespace
+
+Result<Matrix3> fit_matrix(std::span<const Vector3> from, std::span<const Vector3> to) {
+    OSIO_TRY(const Sums sums, sums_of(from, to));
+    return sums.to_from * inverse(sums.from_from);
+}
+
+Result<Matrix3> fit_matrix_keeping(const std::pair<Vector3, Vector3>& kept, std::span<const Vector3> from,
+                                   std::span<const Vector3> to) {
+    OSIO_TRY(const Sums sums, sums_of(from, to));
+    // Lagrange: with G = sum s s^T, free M, and s -> t kept, M + (t - M s) (G^-1 s)^T / (s^T G^-1 s).
+    const Matrix3 spread = inverse(sums.from_from);
+    Matrix3 out = sums.to_from * spread;
+    const auto& [s, t] = kept;
+    const Vector3 direction = spread * s, reached = out * s;
+    const double length = s[0] * direction[0] + s[1] * direction[1] + s[2] * direction[2];
+    for (std::size_t r = 0; r < 3; ++r)
+        for (std::size_t c = 0; c < 3; ++c)
+            out.rows[r][c] += (t[r] - reached[r]) * direction[c] / length;
+    return out;
 }
 
 FitResidual residual_of(std::span<const Vector3> fitted, std::span<const Vector3> wanted,
