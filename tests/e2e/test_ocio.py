@@ -67,6 +67,31 @@ class OnePass(Ocio):
             self.expect_same_bits(f"srgb - display/{view}", "aces2065_1", "--ociodisplay:from=ACES2065-1",
                                   "sRGB - Display", view)
 
+    def test_a_config_with_a_table_beside_it(self):
+        self.osiotool("bake", "relight", "look.cube", "--from", "D65", "--to", "A", "--size", "17")
+        with open(CONFIG, encoding="utf-8") as file:
+            text = file.read()
+        os.mkdir(self.path("show"))
+        os.rename(self.path("look.cube"), self.path("show/look.cube"))
+        with open(self.path("show/show.ocio"), "w", encoding="utf-8") as file:
+            file.write(text.replace("to_scene_reference: !<BuiltinTransform> {style: ACEScct_to_ACES2065-1}",
+                                    "from_scene_reference: !<FileTransform> {src: look.cube}"))
+        self.osiotool("collapse", "a.exr", "one.exr", "--to", "acescct", "--config", "show/show.ocio", "--illuminant",
+                      "D55")
+        self.osiotool("collapse", "a.exr", "entry.exr", "--to", "aces2065_1", "--illuminant", "D55")
+        self.check("oiiotool", "--colorconfig", "show/show.ocio", "entry.exr", "--colorconvert", "ACES2065-1",
+                   "ACEScct", "-o", "two.exr")
+        self.assertTrue(np.array_equal(self.read("one.exr")[1], self.read("two.exr")[1]))
+
+    def test_nan_stays_in_its_pixel(self):
+        bands = self.bands(GRID, shape=(9, 40))
+        self.write_exr("sound.exr", bands)
+        bands["T.560nm"][4, 17] = np.nan
+        self.write_exr("holed.exr", bands)
+        for to in ("ACEScct", "srgb_display", VIEW):
+            difference = self.collapse(to, "h.exr", "holed.exr")[1] != self.collapse(to, "s.exr", "sound.exr")[1]
+            self.assertEqual(set(zip(*np.nonzero(difference.any(axis=-1)))), {(4, 17)}, to)
+
     def test_threads_make_no_difference(self):
         bits = [self.collapse(VIEW, "out.exr", "a.exr", "--threads", n)[1].tobytes() for n in (1, 2, 7)]
         self.assertEqual(bits[0], bits[1])
