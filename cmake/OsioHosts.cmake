@@ -9,6 +9,7 @@ find_package(nlohmann_json CONFIG REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(HWY REQUIRED IMPORTED_TARGET libhwy)
 pkg_check_modules(DEFLATE REQUIRED IMPORTED_TARGET libdeflate)
+pkg_check_modules(OCIO REQUIRED IMPORTED_TARGET OpenColorIO>=2.1)
 
 # Debian 12's exported OpenImageIO targets name an OpenCV include folder that its package does not
 # depend on; CMake refuses to generate. Folders that are not there cannot be needed: leave them out.
@@ -26,4 +27,5 @@ endforeach()
 # A plugin is bound to one minor version of OpenImageIO: one folder for each, never a shared one.
 string(REGEX MATCH "^[0-9]+\\.[0-9]+" OSIO_OIIO_MINOR "${OpenImageIO_VERSION}")
 set(OSIO_LIB_DIR ${CMAKE_INSTALL_LIBDIR}/osio)
+set(OSIO_OCIO_MODULE osio_ocio.so)
 set(OSIO_PLUGIN_DIR ${OSIO_LIB_DIR}/oiio-${OSIO_OIIO_MINOR})

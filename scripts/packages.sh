@@ -3,7 +3,7 @@
 
 # What building and running needs.
 OSIO_PACKAGES="g++ cmake ninja-build pkg-config
-    libopenimageio-dev libopenexr-dev libimath-dev libhwy-dev libdeflate-dev
+    libopenimageio-dev libopencolorio-dev libopenexr-dev libimath-dev libhwy-dev libdeflate-dev
     libcli11-dev libfmt-dev nlohmann-json3-dev libexpected-dev libxxhash-dev
     openimageio-tools fonts-dejavu-core"
 

@@ -18,6 +18,12 @@ Imath::V2f v2f(const Chromaticity& c) {
     return {static_cast<float>(c.x), static_cast<float>(c.y)};
 }
 
+/// "osio $1f2e, from ACES2065-1 by processor $3d4c".
+std::string config_text(const TransformSource& source) {
+    const std::string name = source.config_name.empty() ? source.config_file : source.config_name;
+    return name + " " + source.config_id + ", from " + source.from + " by processor " + source.processor;
+}
+
 /// Attributes that describe what a collapse replaces.
 bool is_replaced(std::string_view name) {
     constexpr std::array<std::string_view, 2> kOwn{attribute::kChromaticities, attribute::kColorSpace};
@@ -51,7 +57,7 @@ Imf::Header collapsed_header(const CollapseJob& job) {
         if (!is_structural(a.name()) && !describes_bands(a.name()) && !is_replaced(a.name()))
             out.insert(a.name(), a.attribute());
     const OutputSpace& space = plan.space;
-    if (has_primaries(space.kind))
+    if (has_primaries(space.kind) && !space.transform)
         out.insert(attribute::kChromaticities,
                    Imf::ChromaticitiesAttribute(Imf::Chromaticities(v2f(space.red), v2f(space.green),
                                                                     v2f(space.blue), v2f(space.white))));
@@ -59,6 +65,8 @@ Imf::Header collapsed_header(const CollapseJob& job) {
         out.insert(attribute::kColorSpace, Imf::StringAttribute(space.color_space));
     out.insert(attribute::kRecipe, Imf::StringAttribute(recipe_text(plan.request)));
     out.insert(attribute::kPlan, Imf::StringAttribute(plan.id));
+    if (space.transform)
+        out.insert(attribute::kConfig, Imf::StringAttribute(config_text(space.transform->source())));
     if (!job.warnings.empty())
         out.insert(attribute::kWarnings, Imf::StringAttribute(join(job.warnings, "\n")));
     out.compression() = Imf::ZIP_COMPRESSION;

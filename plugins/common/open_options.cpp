@@ -2,11 +2,16 @@
 #include <plugins/common/open_options.h>
 
 #include <formats/exr/exr_file.h>
+#include <formats/files/config_module.h>
 #include <formats/files/text_file.h>
 
 #include <osio/base/text.h>
+#include <osio/collapse/output_resolver.h>
 
+#include <dlfcn.h>
+#include <filesystem>
 #include <fstream>
+#include <system_error>
 #include <vector>
 
 namespace osio::plugin {
@@ -56,6 +61,8 @@ std::string_view without_comment(std::string_view line) {
 
 /// A value whose tables are meant relative to the recipe's folder.
 std::string tables_seen_from(const std::string& folder, std::string_view key, const std::string& value) {
+    if (key == "config" && value.find("://") == std::string::npos)
+        return files::seen_from(folder, value);
     std::vector<std::string> out;
     for (const std::string_view piece : split(value, takes_tables(key) ? ',' : '\0')) {
         const std::string name(trim(piece));
@@ -72,6 +79,15 @@ Result<void> apply_hints(const OIIO::ImageSpec& config, CollapseRequest& request
             OSIO_CHECK_OK(set_option(request, name.substr(kHintPrefix.size()), hint.get_string()));
     }
     return {};
+}
+
+/// The module lies beside the folders of plugins, wherever the installation was moved to.
+ConfigLoader colour_configs() {
+    Dl_info own{};
+    ::dladdr(reinterpret_cast<const void*>(&colour_configs), &own);
+    std::error_code error;
+    const auto plugin = std::filesystem::canonical(own.dli_fname, error);
+    return files::config_loader((plugin.parent_path().parent_path() / OSIO_OCIO_MODULE).string());
 }
 
 }  // namespace
@@ -127,6 +143,7 @@ Result<OpenRequest> resolve_open(const std::string& name, const OIIO::ImageSpec*
         OSIO_CHECK_OK(apply_hints(*config, out.request));
     if (query)
         OSIO_CHECK_OK(apply_query(cut.query, out.request));
+    OSIO_CHECK_OK(resolve_output(out.request, colour_configs()));
     return out;
 }
 

@@ -13,7 +13,7 @@ import re
 import subprocess
 import unittest
 
-from osio_case import COLORCHECKER, HOME, SOURCE, OsioCase
+from osio_case import COLORCHECKER, CONFIG, HOME, SOURCE, OsioCase
 
 DOCUMENTS = sorted(glob.glob(os.path.join(SOURCE, "*.md")) + glob.glob(os.path.join(SOURCE, "docs", "**", "*.md"),
                    recursive=True) + glob.glob(os.path.join(SOURCE, "*", "README.md")))
@@ -135,11 +135,15 @@ class Reference(OsioCase):
         self.names(self.keys_of(self.osiotool_json("collapse", "shot.exr", "o.exr", *words)))
         self.names(self.keys_of(self.osiotool_json("difference", "o.exr", "shot.exr", "--illuminant", "A")))
         self.names(self.keys_of(self.osiotool_json("photometry", "--illuminant", "A")))
+        self.names(self.keys_of(self.osiotool_json("plan", "shot.exr", "--to", "ACEScct", "--config", CONFIG,
+                                                   "--illuminant", "A")))
+        self.names(self.keys_of(self.osiotool_json("list", "spaces", "--config", CONFIG)))
+        self.names(self.keys_of(self.osiotool_json("bake", "relight", "m.clf", "--from", "A", "--to", "D65")))
         self.write_exr("radiance.exr", self.bands([450, 550, 650], prefix="S0"))
         self.names(self.keys_of(self.osiotool_json("photometry", "radiance.exr")))
 
     def test_every_option(self):
-        for command in ("info", "collapse", "plan", "verify", "difference", "photometry"):
+        for command in ("info", "collapse", "plan", "verify", "difference", "photometry", "bake", "list"):
             text = self.osiotool(command, "--help").stdout
             self.names(set(re.findall(r"^  --?([a-z][a-z-]*)", text, re.M)) - {"h"})
 

@@ -20,6 +20,8 @@ OSIOTOOL = os.path.join(HOME, "bin", "osiotool")
 COLORCHECKER = os.environ["OSIO_TEST_COLORCHECKER"]
 CONFIG = os.path.join(SOURCE, "configs", "osio.ocio")
 
+os.environ.pop("OCIO", None)  # a test says which config it means
+
 FLOAT, HALF, UINT = oiio.FLOAT, oiio.HALF, oiio.UINT32
 
 

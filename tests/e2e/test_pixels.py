@@ -211,7 +211,8 @@ class Ocio(OsioCase):
     """The config and our own spaces say the same."""
 
     SPACES = {"acescg": "ACEScg", "aces2065_1": "ACES2065-1", "lin_rec709": "lin_rec709",
-              "lin_p3d65": "lin_p3d65", "lin_rec2020": "lin_rec2020"}
+              "lin_p3d65": "lin_p3d65", "lin_rec2020": "lin_rec2020", "lin_adobergb": "lin_adobergb_scene",
+              "lin_prophoto": "lin_prophoto"}
 
     def expect_equal(self, source, query):
         for ours, theirs in self.SPACES.items():
@@ -247,7 +248,7 @@ class Ocio(OsioCase):
         names = self.check("ociocheck", "--iconfig", CONFIG)
         with open(CONFIG) as file:
             config = file.read()
-        for tag in ("lin_ciexyzd65_scene", "lin_rec709", "lin_p3d65", "lin_rec2020", "ACEScg",
+        for tag in ("lin_ciexyzd65_scene", "lin_rec709", "lin_p3d65", "lin_rec2020", "ACEScg", "lin_adobergb_scene",
                     "ACES2065-1", "sRGB"):
             self.assertRegex(config, rf"(name: |[\[ ]){tag}[\],\n]", tag)
         self.assertTrue(names)

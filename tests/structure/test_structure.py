@@ -25,6 +25,7 @@ LIBRARIES = {
     r"libdeflate\.h": r"formats/exr/zip_codec\.cpp",
     r"OpenEXR/|Imath/": r"formats/exr/|plugins/|tools/host_module/|examples/",
     r"OpenImageIO/": r"plugins/|tools/host_module/",
+    r"OpenColorIO/": r"plugins/ocio/",
     r"fmt/": r"tools/osiotool/",
     r"CLI/": r"tools/osiotool/main\.cpp",
     r"nlohmann/": r"tools/osiotool/report_json\.cpp",

@@ -33,8 +33,6 @@ TEST(Request, ARecipeReadsBackAsTheSameRequest) {
 TEST(Request, MistypedWordsAreAnsweredWithTheNearest) {
     EXPECT_EQ(error_of("iluminant", "D65"),
               "no option is called \"iluminant\"; did you mean \"illuminant\"?");
-    EXPECT_EQ(error_of("to", "lin_rec790"),
-              "no output space is called \"lin_rec790\"; did you mean \"lin_rec709\"?");
     EXPECT_EQ(error_of("observer", "cie1913"),
               "no observer is called \"cie1913\"; did you mean \"cie1931\"? (a camera's table of "
               "nm,R,G,B is named by its path and ends in .csv)");

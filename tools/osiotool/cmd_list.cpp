@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tools/osiotool/commands.h>
+#include <tools/osiotool/host_loader.h>
+#include <tools/osiotool/report.h>
 #include <tools/osiotool/text_table.h>
 
 #include <osio/base/text.h>
@@ -44,6 +46,29 @@ TextTable spaces() {
     return table;
 }
 
+/// The names of a colour config.
+TextTable spaces_of(const ColourConfig& config) {
+    TextTable table({{"name"}, {"kind"}, {"also called"}});
+    for (const ConfigName& entry : config.names())
+        table.add({entry.name, entry.kind, join(entry.aliases, ", ")});
+    return table;
+}
+
+/// Our spaces, then those of the config that is active.
+Result<void> print_spaces(const ListOptions& options) {
+    if (!options.json)
+        fmt::print("{}", spaces().text());
+    OSIO_TRY(const auto config, colour_configs()(options.config));
+    if (options.json) {
+        fmt::print("{}", spaces_json(config.get()));
+        return {};
+    }
+    if (config)
+        fmt::print("\nof the config {} ({}):\n{}", config->name().empty() ? "of no name" : config->name(),
+                   config->file(), spaces_of(*config).text());
+    return {};
+}
+
 TextTable bases() {
     TextTable table({{"basis"}, {"meaning"}});
     for (const BasisInfo& info : osio::bases())
@@ -56,13 +81,20 @@ struct List {
     TextTable (*make)();
 };
 
-constexpr std::array<List, 4> kLists{
-    {{"illuminants", illuminants}, {"observers", observers}, {"spaces", spaces}, {"bases", bases}}};
+/// Those that are one table.
+constexpr std::array<List, 3> kLists{
+    {{"illuminants", illuminants}, {"observers", observers}, {"bases", bases}}};
 
 }  // namespace
 
 Result<ExitCode> run_list(const ListOptions& options) {
-    std::vector<std::string> names;
+    if (options.what == "spaces") {
+        OSIO_CHECK_OK(print_spaces(options));
+        return kDone;
+    }
+    if (options.json || !options.config.empty())
+        return fail(ErrorCode::Usage, "--json and --config are for osiotool list spaces");
+    std::vector<std::string> names{"spaces"};
     for (const List& list : kLists) {
         names.emplace_back(list.name);
         if (list.name != options.what)

@@ -118,6 +118,11 @@ Result<std::vector<std::string>> names_of(const std::vector<exr::CollapseJob>& j
     return names;
 }
 
+/// True where equal steps of the values are equal steps of light.
+bool is_linear(const OutputSpace& space) {
+    return space.transform ? space.transform->is_linear() : space.transfer == Transfer::Linear;
+}
+
 }  // namespace
 
 std::string_view depth_name(StoredType type) {
@@ -130,8 +135,7 @@ std::string_view depth_name(StoredType type) {
 Result<StoredType> choose_depth(const CollapseOptions& options, const OutputSpace& space) {
     StoredType type = StoredType::Float;
     if (options.depth.empty()) {
-        const bool encoded = space.transfer != Transfer::Linear;
-        type = !is_exr(options.output) && encoded ? StoredType::Uint8 : StoredType::Float;
+        type = !is_exr(options.output) && !is_linear(space) ? StoredType::Uint8 : StoredType::Float;
     } else {
         std::vector<std::string> names;
         bool found = false;
@@ -151,7 +155,7 @@ Result<StoredType> choose_depth(const CollapseOptions& options, const OutputSpac
     if (is_integer(type) && !is_tristimulus(space.kind))
         return fail(ErrorCode::Usage, space.id + " holds values beyond 0 to 1, which " +
                                           std::string(depth_name(type)) + " does not; use -d half or float");
-    if (is_integer(type) && space.transfer == Transfer::Linear && !options.raw)
+    if (is_integer(type) && is_linear(space) && !options.raw)
         return fail(ErrorCode::Usage,
                     space.id + " is linear, and " + std::string(depth_name(type)) +
                         " has too few steps for it in the shadows; use --to srgb, -d half, or --raw "

@@ -4,6 +4,7 @@
 #include <tools/osiotool/exit_code.h>
 
 #include <osio/base/result.h>
+#include <osio/collapse/baked_matrix.h>
 
 #include <optional>
 #include <string>
@@ -71,8 +72,20 @@ struct PhotometryOptions {
     bool json = false;
 };
 
+struct BakeOptions {
+    std::string what;  ///< adaptation, primaries, relight, observer, camera
+    std::string output;
+    MatrixRequest request;
+    std::string adapt;   ///< empty: the request's default
+    std::string domain;  ///< LOW,HIGH of a .cube; empty: 0,1
+    int size = 2;        ///< points along an edge of a .cube
+    bool json = false;
+};
+
 struct ListOptions {
-    std::string what;  ///< illuminants, observers, spaces, bases
+    std::string what;    ///< illuminants, observers, spaces, bases
+    std::string config;  ///< of spaces: OCIO config to list too; empty: the environment's
+    bool json = false;   ///< of spaces
 };
 
 [[nodiscard]] Result<ExitCode> run_info(const InfoOptions& options);
@@ -81,6 +94,7 @@ struct ListOptions {
 [[nodiscard]] Result<ExitCode> run_verify(const VerifyOptions& options);
 [[nodiscard]] Result<ExitCode> run_difference(const DifferenceOptions& options);
 [[nodiscard]] Result<ExitCode> run_photometry(const PhotometryOptions& options);
+[[nodiscard]] Result<ExitCode> run_bake(const BakeOptions& options);
 [[nodiscard]] Result<ExitCode> run_list(const ListOptions& options);
 [[nodiscard]] Result<ExitCode> run_doctor();
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tools/osiotool/host_loader.h>
 
+#include <formats/files/config_module.h>
+
 #include <dlfcn.h>
 #include <filesystem>
 #include <system_error>
@@ -27,6 +29,10 @@ Result<const host::HostModule*> load_host_module() {
     if (entry == nullptr)
         return fail(ErrorCode::Io, "is no module of this program", path);
     return entry();
+}
+
+ConfigLoader colour_configs() {
+    return files::config_loader((installation() / OSIO_OCIO_MODULE).string());
 }
 
 std::string plugin_folder() {

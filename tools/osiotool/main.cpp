@@ -60,6 +60,7 @@ class CommandLine {
         add_verify();
         add_difference();
         add_photometry();
+        add_bake();
         add_list();
         add("doctor", "tell whether OpenImageIO sees our plugins, and if not, why",
             [] { return run_doctor(); });
@@ -149,7 +150,8 @@ class CommandLine {
                                       [this] { return run_difference(m_difference); });
         command->add_option("a", m_difference.a, "spectral, RGB or XYZ OpenEXR file")->required();
         command->add_option("b", m_difference.b, "the same")->required();
-        add_request_options(*command, m_difference.request, {"to", "names", "adapt", "display", "scale"});
+        add_request_options(*command, m_difference.request,
+                            {"to", "config", "names", "adapt", "display", "scale"});
         command->add_option("--map", m_difference.map, "writes the difference of every pixel")
             ->type_name("FILE.exr");
         command->add_option("--fail", m_difference.fail, "a pixel beyond this fails: exit code 1")
@@ -172,15 +174,46 @@ class CommandLine {
         command->add_option("output", m_photometry.output, "luminance image, .exr");
         add_request_options(
             *command, m_photometry.request,
-            {"to", "names", "adapt", "observer", "white", "display", "scale", "filter-normalise"});
+            {"to", "config", "names", "adapt", "observer", "white", "display", "scale", "filter-normalise"});
         command->add_option("--threads", m_photometry.threads, "default: one a processor")->type_name("N");
         command->add_flag("--quiet", m_photometry.quiet, "no warnings, no progress");
         command->add_flag("--json", m_photometry.json, "as JSON");
     }
 
+    void add_bake() {
+        CLI::App* const command =
+            add("bake", "a conversion that a 3x3 matrix can say, as .clf, .spimtx or .cube",
+                [this] { return run_bake(m_bake); });
+        MatrixRequest& request = m_bake.request;
+        command->add_option("what", m_bake.what, "adaptation, primaries, relight, observer or camera")
+            ->required();
+        command->add_option("output", m_bake.output, "OUT.clf, OUT.spimtx or OUT.cube")->required();
+        const auto word = [command](const std::string& name, std::string& value, const std::string& type,
+                                    const std::string& help) {
+            return command->add_option("--" + name, value, help)->type_name(type);
+        };
+        word("from", request.from, "NAME|FILE.csv", "light, space, observer or a camera's table")->required();
+        word("to", request.to, "NAME|FILE.csv", "light, space or observer; of a camera a space")->required();
+        word("illuminant", request.illuminant, "NAME|FILE.csv",
+             "of observer and camera: the light; default D65");
+        word("observer", request.observer, "NAME", "of lights and cameras; default cie1931");
+        word("reflectances", request.reflectances, "FILE.csv",
+             "nm and spectra to fit to; default colorchecker");
+        command->add_flag("--keep-white", request.keep_white,
+                          "of fits: the perfect diffuser comes out exactly");
+        word("adapt", m_bake.adapt, "NAME", "chromatic adaptation; default bradford");
+        word("domain", m_bake.domain, "LOW,HIGH", "of .cube, which clips beyond; default 0,1");
+        command->add_option("--size", m_bake.size, "of .cube: points along an edge; default 2")
+            ->type_name("N");
+        command->add_flag("--json", m_bake.json, "as JSON");
+    }
+
     void add_list() {
         CLI::App* const command = add("list", "names that options take", [this] { return run_list(m_list); });
         command->add_option("what", m_list.what, "illuminants, observers, spaces or bases")->required();
+        command->add_option("--config", m_list.config, "of spaces: OCIO config to list too; default: OCIO's")
+            ->type_name("FILE.ocio");
+        command->add_flag("--json", m_list.json, "of spaces, as JSON");
     }
 
     /// The nearest subcommand or option to the first word that nobody knows.
@@ -215,6 +248,7 @@ class CommandLine {
     VerifyOptions m_verify;
     DifferenceOptions m_difference;
     PhotometryOptions m_photometry;
+    BakeOptions m_bake;
     ListOptions m_list;
 };
 

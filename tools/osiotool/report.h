@@ -8,7 +8,9 @@
 #include <formats/exr/soundness.h>
 
 #include <osio/base/value_statistics.h>
+#include <osio/collapse/baked_matrix.h>
 #include <osio/collapse/collapse_stream.h>
+#include <osio/collapse/output_resolver.h>
 #include <osio/colour/cct.h>
 #include <osio/colour/photometry.h>
 
@@ -81,6 +83,13 @@ struct LightOutcome {
 
 [[nodiscard]] std::string light_text(const LightOutcome& outcome);
 [[nodiscard]] std::string light_json(const LightOutcome& outcome);
+
+/// A baked matrix, what is left of its fit, and its tables.
+[[nodiscard]] std::string bake_text(const BakedMatrix& baked);
+[[nodiscard]] std::string bake_json(const BakedMatrix& baked, const std::string& output);
+
+/// Our spaces and those of a colour config, which may be null.
+[[nodiscard]] std::string spaces_json(const ColourConfig* config);
 
 [[nodiscard]] std::string info_text(const exr::ExrFile& file);
 [[nodiscard]] std::string info_json(const exr::ExrFile& file);

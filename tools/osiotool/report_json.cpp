@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tools/osiotool/report.h>
 
+#include <osio/base/text.h>
 #include <osio/collapse/basis_spread.h>
 
 #include <nlohmann/json.hpp>
@@ -67,6 +68,8 @@ Json part_json(const exr::ExrPart& part) {
 
 /// What is done to the weights' sums, by the name of its result.
 std::string curve_name(const OutputSpace& space) {
+    if (space.transform)
+        return "ocio";
     if (!is_tristimulus(space.kind))
         return space.id;
     return space.transfer == Transfer::Srgb ? "srgb" : "linear";
@@ -77,6 +80,16 @@ Json spread_json(const CollapsePlan& plan) {
     for (const BasisSpread& spread : basis_spread(plan))
         out[std::string(basis_name(spread.basis))] = {{"mean", spread.mean}, {"max", spread.max}};
     return out;
+}
+
+/// The colour config's share of a plan, or null.
+Json config_json(const OutputSpace& space) {
+    if (!space.transform)
+        return nullptr;
+    const TransformSource& source = space.transform->source();
+    return {{"config", source.config_file},  {"config_name", source.config_name},
+            {"config_id", source.config_id}, {"from", source.from},
+            {"processor", source.processor}, {"linear", space.transform->is_linear()}};
 }
 
 Json plan_object(const exr::CollapseJob& job) {
@@ -99,6 +112,7 @@ Json plan_object(const exr::CollapseJob& job) {
             {"to", plan.space.id},
             {"color_space", plan.space.color_space.empty() ? Json(nullptr) : Json(plan.space.color_space)},
             {"curve", curve_name(plan.space)},
+            {"ocio", config_json(plan.space)},
             {"observer", plan.observer.id},
             {"observer_source", plan.observer.source},
             {"illuminant", reflectance ? Json(plan.illuminant->id) : Json(nullptr)},
@@ -235,6 +249,42 @@ std::string light_json(const LightOutcome& outcome) {
                  {"xy", {outcome.xy.x, outcome.xy.y}},
                  {"cct", t ? Json(t->cct_k) : Json(nullptr)},
                  {"duv", t ? Json(t->duv) : Json(nullptr)}});
+}
+
+std::string bake_json(const BakedMatrix& baked, const std::string& output) {
+    Json tables = Json::array();
+    for (const UsedTable& table : baked.tables)
+        tables.push_back(
+            {{"role", table.role}, {"name", table.name}, {"source", table.source}, {"digest", table.digest}});
+    const auto& residual = baked.residual;
+    return dump({{"output", output},
+                 {"title", baked.title},
+                 {"matrix", baked.matrix.rows},
+                 {"fitted_spectra", baked.fitted_spectra},
+                 {"residual_mean", residual ? Json(residual->mean) : Json(nullptr)},
+                 {"residual_max", residual ? Json(residual->max) : Json(nullptr)},
+                 {"tables", std::move(tables)}});
+}
+
+std::string spaces_json(const ColourConfig* config) {
+    Json spaces = Json::array(), names = Json::array();
+    for (const OutputSpace& space : output_spaces()) {
+        Json aliases = Json::array();
+        for (const std::string_view alias : split(space.aliases, '|'))
+            if (!alias.empty())
+                aliases.push_back(alias);
+        spaces.push_back(
+            {{"name", space.id},
+             {"color_space", space.color_space.empty() ? Json(nullptr) : Json(space.color_space)},
+             {"aliases", std::move(aliases)}});
+    }
+    if (config == nullptr)
+        return dump({{"spaces", std::move(spaces)}, {"config", nullptr}});
+    for (const ConfigName& entry : config->names())
+        names.push_back({{"name", entry.name}, {"kind", entry.kind}, {"aliases", entry.aliases}});
+    return dump(
+        {{"spaces", std::move(spaces)},
+         {"config", {{"file", config->file()}, {"name", config->name()}, {"names", std::move(names)}}}});
 }
 
 std::string info_json(const exr::ExrFile& file) {

@@ -147,6 +147,13 @@ std::string plan_text(const exr::CollapseJob& job) {
         out += fmt::format("adaptation   {} from XYZ {:.6f} {:.6f} {:.6f}\n",
                            adaptation_name(plan.request.adaptation), white[0], white[1], white[2]);
     }
+    if (plan.space.transform) {
+        const TransformSource& source = plan.space.transform->source();
+        out += fmt::format("config       {} ({}), {}\n", source.config_name, source.config_file,
+                           source.config_id);
+        out += fmt::format("transform    {} to {}, processor {}{}\n", source.from, plan.space.id,
+                           source.processor, plan.space.transform->is_linear() ? ", linear" : "");
+    }
     const std::vector<std::string> weighed = plan.weighed();
     out += "extrapolated";
     for (std::size_t row = 0; row < plan.outputs.size(); ++row)
@@ -167,6 +174,15 @@ std::string plan_text(const exr::CollapseJob& job) {
     out += "\n" + table.text();
     for (const std::string& warning : job.warnings)
         out += "warning: " + warning + "\n";
+    return out;
+}
+
+std::string bake_text(const BakedMatrix& baked) {
+    std::string out;
+    for (const std::string& line : baked.description())
+        out += line + "\n";
+    for (const Vector3& row : baked.matrix.rows)
+        out += fmt::format("{:13.9f} {:13.9f} {:13.9f}\n", row[0], row[1], row[2]);
     return out;
 }
 

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <tools/osiotool/commands.h>
+#include <tools/osiotool/host_loader.h>
 
+#include <osio/collapse/output_resolver.h>
 #include <osio/collapse/request.h>
 
 namespace osio::tool {
@@ -12,6 +14,7 @@ namespace osio::tool {
     CollapseRequest request;
     for (const auto& [key, value] : words)
         OSIO_CHECK_OK(set_option(request, key, value));
+    OSIO_CHECK_OK(resolve_output(request, colour_configs()));
     return request;
 }
 

@@ -35,6 +35,10 @@ Vector3 PixelStage::convert(const Vector3& linear) const {
 }
 
 void PixelStage::apply(std::span<float* const, 3> planes, const float* alpha, std::size_t pixels) const {
+    if (m_space.transform) {
+        transform(planes, alpha, pixels);
+        return;
+    }
     for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
         const double share = alpha != nullptr && alpha[pixel] > 0 ? static_cast<double>(alpha[pixel]) : 1;
         Vector3 linear{};
@@ -44,6 +48,19 @@ void PixelStage::apply(std::span<float* const, 3> planes, const float* alpha, st
         for (std::size_t c = 0; c < 3; ++c)
             planes[c][pixel] = static_cast<float>(out[c] * share);
     }
+}
+
+void PixelStage::transform(std::span<float* const, 3> planes, const float* alpha, std::size_t pixels) const {
+    const bool associated = alpha != nullptr && !m_space.transform->is_linear();
+    if (associated)
+        for (float* const plane : planes)
+            for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+                plane[pixel] /= alpha[pixel] > 0 ? alpha[pixel] : 1.0F;
+    m_space.transform->apply(planes, pixels);
+    if (associated)
+        for (float* const plane : planes)
+            for (std::size_t pixel = 0; pixel < pixels; ++pixel)
+                plane[pixel] *= alpha[pixel] > 0 ? alpha[pixel] : 1.0F;
 }
 
 }  // namespace osio

@@ -82,7 +82,7 @@ class PlanMaker {
         OSIO_CHECK_OK(check_request(m_plan.request));
         OSIO_CHECK_OK(check_quantity(m_set, m_plan.request));
         m_plan.space = *m_plan.request.to;
-        m_plan.outputs = space_outputs(m_plan.space.kind);
+        m_plan.outputs = space_outputs(m_plan.space.transform ? SpaceKind::Rgb : m_plan.space.kind);
         m_plan.distinct = distinct_bands(m_set, m_metadata);
         return check_grid(m_set, m_plan.request, m_plan.distinct.grid.wavelengths_nm);
     }
@@ -263,7 +263,9 @@ class PlanMaker {
 
     void name_it() {
         Fingerprint id;
-        id.add(recipe_text(m_plan.request)).add(m_plan.observer.digest);
+        CollapseRequest request = m_plan.request;
+        request.config.clear();  // the processor says what it does, wherever the config lies
+        id.add(recipe_text(request)).add(m_plan.observer.digest);
         id.add(basis_name(m_plan.basis.basis));
         if (m_plan.illuminant)
             id.add(m_plan.illuminant->digest);
@@ -271,6 +273,8 @@ class PlanMaker {
             id.add(filter.digest);
         if (m_plan.display)
             id.add(m_plan.display->digest);
+        if (m_plan.space.transform)
+            id.add(m_plan.space.color_space).add(m_plan.space.transform->source().processor);
         for (const Band& band : m_plan.bands)
             id.add(band.wavelength_nm);
         for (std::size_t row = 0; row < m_plan.weights.rows(); ++row)
@@ -298,6 +302,8 @@ std::vector<double> CollapsePlan::wavelengths_nm() const {
 }
 
 std::vector<std::string> CollapsePlan::weighed() const {
+    if (space.transform)
+        return space_outputs(space.kind);
     return is_tristimulus(space.kind) ? outputs : space_outputs(SpaceKind::Xyz);
 }
 

@@ -31,7 +31,7 @@ struct CollapsePlan {
     OutputSpace space;
     std::vector<std::string> outputs;  ///< what comes out: R, G, B; X, Y, Z; Y; L*, a*, b*; ...
     std::vector<Band> bands;           ///< by wavelength
-    WeightMatrix weights;              ///< outputs x bands, linear; PixelStage has what the space adds
+    WeightMatrix weights;              ///< outputs x bands, linear; PixelStage has what comes then
     Observer observer;
     std::optional<Illuminant> illuminant;
     std::vector<Filter> filters;

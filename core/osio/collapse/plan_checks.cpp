@@ -21,6 +21,8 @@ Result<void> check_names(const CollapseRequest& request) {
     if (request.names == OutputNames::Layout)
         return usage("names=layout is for bands; with to=" + space + " use rgb or xyz");
     const SpaceKind kind = request.to->kind;
+    if (request.names == OutputNames::Xyz && request.to->transform)
+        return usage("names=xyz does not fit to=" + space + ", whose values are those of a colour config");
     if (request.names == OutputNames::Xyz && (is_rgb(kind) || !is_tristimulus(kind)))
         return usage("names=xyz does not fit to=" + space + ", whose values are " +
                      (is_rgb(kind) ? "red, green and blue" : join(space_outputs(kind), ", ")));
@@ -35,6 +37,8 @@ Result<void> check_names(const CollapseRequest& request) {
 }  // namespace
 
 Result<void> check_request(const CollapseRequest& request) {
+    if (!request.config_space.empty())
+        return tl::unexpected(find_output_space(request.config_space).error());
     if (!request.to)
         return usage("no space to collapse to was named; use to=" + join(output_space_names(), ", to="));
     OSIO_CHECK_OK(check_names(request));

@@ -19,7 +19,10 @@ constexpr std::string_view kRaw = "raw";
 
 constexpr auto kOptions = std::to_array<RequestOption>({
     {"to", "SPACE",
-     "space to collapse to (list spaces; rgb:xr,yr,xg,yg,xb,yb,xw,yw); raw: the bands themselves"},
+     "space to collapse to (list spaces; rgb:xr,yr,xg,yg,xb,yb,xw,yw; a space, role or DISPLAY/VIEW of the "
+     "OCIO config, ocio:NAME where we have the name too); raw: the bands themselves"},
+    {"config", "FILE.ocio",
+     "OCIO config that names beyond ours are looked up in; default: the environment's OCIO"},
     {"illuminant", "NAME|FILE.csv", "light on a reflectance, or several between commas (list illuminants)"},
     {"filter", "FILE.csv", "transmittance in front of the light; repeatable"},
     {"filter-normalise", "", "make the diffuser behind the filters Y = 1, instead of darker"},
@@ -81,11 +84,17 @@ constexpr Words<OutputNames, 3> kNames{
     {{{"rgb", OutputNames::Rgb}, {"xyz", OutputNames::Xyz}, {"layout", OutputNames::Layout}}}};
 
 Result<void> set_to(CollapseRequest& request, std::string_view value) {
-    if (iequals(value, kRaw)) {
-        request.to.reset();
+    request.to.reset();
+    request.config_space.clear();
+    if (iequals(value, kRaw))
         return {};
-    }
-    OSIO_TRY(request.to, find_output_space(value));
+    auto space = find_output_space(value);
+    if (space)
+        request.to = std::move(*space);
+    else if (space.error().code == ErrorCode::UnknownName && !value.empty())
+        request.config_space = value;
+    else
+        return tl::unexpected(std::move(space).error());
     return {};
 }
 
@@ -158,6 +167,8 @@ Result<void> set_option(CollapseRequest& request, std::string_view key, std::str
         OSIO_TRY(request.adaptation, find_adaptation(value));
     } else if (key == "illuminant") {
         request.illuminant = value;
+    } else if (key == "config") {
+        request.config = value;
     } else if (key == "part") {
         request.part = value;
     } else if (key == "set") {
@@ -175,11 +186,15 @@ Result<void> set_option(CollapseRequest& request, std::string_view key, std::str
 }
 
 std::string recipe_text(const CollapseRequest& request) {
-    std::string out = "to=" + (request.to ? request.to->id : std::string(kRaw));
+    std::string out = "to=" + (request.to                     ? request.to->id
+                               : request.config_space.empty() ? std::string(kRaw)
+                                                              : request.config_space);
     const auto add = [&out](std::string_view key, std::string_view value) {
         if (!value.empty())
             out += "&" + std::string(key) + "=" + std::string(value);
     };
+    if (!request.to || request.to->transform)
+        add("config", request.config);
     add("illuminant", request.illuminant);
     add("filter", join(request.filters, ","));
     if (request.filter_normalise)

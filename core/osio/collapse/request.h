@@ -33,6 +33,8 @@ enum class Scale {
 /// queries, recipe files and host hints.
 struct CollapseRequest {
     std::optional<OutputSpace> to;  ///< nothing: the bands themselves
+    std::string config_space;       ///< a name that is none of ours, until resolve_output() knows it
+    std::string config;             ///< path of an OCIO config; empty: the environment's
     std::string illuminant;         ///< a name or the path of a .csv, or several between commas; empty: none
     std::vector<std::string> filters;  ///< paths of .csv, each in front of the light
     bool filter_normalise = false;     ///< the diffuser behind the filters has Y = 1
@@ -59,7 +61,8 @@ struct RequestOption {
 /// Every option, in the order in which a recipe spells them.
 [[nodiscard]] std::span<const RequestOption> request_options();
 
-/// Sets one option from its text; `filter` adds to what is set, and takes several between commas. Usage
+/// Sets one option from its text; a name of `to` that is none of ours waits for resolve_output();
+/// `filter` adds to what is set, and takes several between commas. Usage
 /// or UnknownName says what was found and expected.
 [[nodiscard]] Result<void> set_option(CollapseRequest& request, std::string_view key, std::string_view value);
 

@@ -3,7 +3,9 @@
 
 #include <osio/base/matrix3.h>
 #include <osio/base/result.h>
+#include <osio/colour/colour_transform.h>
 
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -84,12 +86,15 @@ enum class Transfer {
 
 /// A space that spectra can be collapsed to.
 struct OutputSpace {
-    std::string id;           ///< "lin_rec709"; of a custom space, what find_output_space reads
+    std::string id;           ///< "lin_rec709"; what find_output_space reads; "ocio:NAME" of a config's
     std::string aliases;      ///< further names, separated by '|'
     std::string color_space;  ///< the name for `oiio:ColorSpace`; empty where none is true
     SpaceKind kind{};
     Transfer transfer{};
     Chromaticity red, green, blue, white;  ///< of the stored primaries
+    /// Where the space belongs to a colour config: the way to it from the space that the rest
+    /// describes, in which the weights end.
+    std::shared_ptr<const ColourTransform> transform{};
 };
 
 /// All spaces, in the order in which `list spaces` shows them.

@@ -1,0 +1,265 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <osio/base/text.h>
+#include <osio/collapse/baked_matrix.h>
+#include <osio/colour/reflectance_set.h>
+
+#include <array>
+
+namespace osio {
+
+namespace {
+
+constexpr std::array<std::pair<std::string_view, MatrixKind>, 5> kKinds{{
+    {"adaptation", MatrixKind::Adaptation},
+    {"primaries", MatrixKind::Primaries},
+    {"relight", MatrixKind::Relight},
+    {"observer", MatrixKind::Observer},
+    {"camera", MatrixKind::Camera},
+}};
+
+Result<Illuminant> load_light(const std::string& name, const TextLoader& load_text) {
+    if (!is_table_path(name))
+        return find_illuminant(name);
+    OSIO_TRY(const std::string csv, load_text(name));
+    return illuminant_from_csv(csv, name);
+}
+
+Result<ReflectanceSet> load_reflectances(const std::string& name, const TextLoader& load_text) {
+    if (!is_table_path(name))
+        return find_reflectance_set(name);
+    OSIO_TRY(const std::string csv, load_text(name));
+    return reflectance_set_from_csv(csv, name);
+}
+
+Result<Observer> colorimetric(const std::string& name) {
+    OSIO_TRY(Observer observer, find_observer(name));
+    if (observer.kind != ObserverKind::Colorimetric)
+        return fail(ErrorCode::Usage,
+                    "observer " + name + " has no colour; expected one with X, Y, Z, such as cie1931");
+    return observer;
+}
+
+Result<OutputSpace> linear_space(const std::string& name) {
+    OSIO_TRY(OutputSpace space, find_output_space(name));
+    if ((space.kind != SpaceKind::Rgb && space.kind != SpaceKind::XyzD65) ||
+        space.transfer != Transfer::Linear)
+        return fail(ErrorCode::Usage,
+                    space.id + " is no linear space with a white; expected one such as lin_rec709, "
+                               "acescg, xyz_d65 or rgb:...");
+    return space;
+}
+
+Matrix3 xyz_from(const OutputSpace& space) {
+    return space.kind == SpaceKind::Rgb ? xyz_from_rgb(space) : Matrix3::identity();
+}
+
+Vector3 white_of(const OutputSpace& space) {
+    return space.kind == SpaceKind::Rgb ? space.white.xyz() : kD65.xyz();
+}
+
+/// Sums of light x reflectance x each curve at 1 nm, each times `k`.
+std::vector<Vector3> colours(const ReflectanceSet& set, const Illuminant& light, const Observer& observer,
+                             const Vector3& k) {
+    std::vector<Vector3> out;
+    for (const NmSamples& reflectance : set.spectra) {
+        Vector3 sum{};
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < reflectance.size(); ++i)
+                sum[c] += k[c] * light.power[i] * reflectance[i] * observer.curves[c][i];
+        out.push_back(sum);
+    }
+    return out;
+}
+
+/// What makes the perfect diffuser's Y 1.
+Vector3 normalised_to_y(const Illuminant& light, const Observer& observer) {
+    double sum = 0;
+    for (std::size_t i = 0; i < light.power.size(); ++i)
+        sum += light.power[i] * observer.curves[1][i];
+    return {1 / sum, 1 / sum, 1 / sum};
+}
+
+/// What makes the perfect diffuser (1, 1, 1).
+Vector3 balanced(const Illuminant& light, const Observer& camera) {
+    Vector3 sum{};
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < light.power.size(); ++i)
+            sum[c] += light.power[i] * camera.curves[c][i];
+    return {1 / sum[0], 1 / sum[1], 1 / sum[2]};
+}
+
+std::vector<Vector3> through(const Matrix3& matrix, std::vector<Vector3> colours) {
+    for (Vector3& colour : colours)
+        colour = matrix * colour;
+    return colours;
+}
+
+class Baker {
+  public:
+    Baker(const MatrixRequest& request, const TextLoader& load_text)
+        : m_request(request), m_load_text(load_text) {}
+
+    Result<BakedMatrix> bake() {
+        const auto done = run();
+        if (!done)
+            return tl::unexpected(done.error());
+        return std::move(m_out);
+    }
+
+  private:
+    Result<void> run() {
+        switch (m_request.kind) {
+        case MatrixKind::Adaptation: return adaptation();
+        case MatrixKind::Primaries: return primaries();
+        case MatrixKind::Relight: return relight();
+        case MatrixKind::Observer: return observer();
+        case MatrixKind::Camera: return camera();
+        }
+        return {};
+    }
+
+    Result<void> adaptation() {
+        OSIO_TRY(const Observer seen, colorimetric(m_request.observer));
+        OSIO_TRY(const Illuminant from, light("from light", m_request.from));
+        OSIO_TRY(const Illuminant to, light("to light", m_request.to));
+        use("observer", seen.id, seen.source, seen.digest);
+        OSIO_TRY(const Vector3 from_white, white_point(from, seen));
+        OSIO_TRY(const Vector3 to_white, white_point(to, seen));
+        OSIO_TRY(m_out.matrix, adaptation_matrix(m_request.adaptation, from_white, to_white));
+        name("XYZ under " + from.id, "XYZ under " + to.id);
+        m_out.title += ", adapted by " + std::string(adaptation_name(m_request.adaptation));
+        return {};
+    }
+
+    Result<void> primaries() {
+        OSIO_TRY(const OutputSpace from, linear_space(m_request.from));
+        OSIO_TRY(const OutputSpace to, linear_space(m_request.to));
+        OSIO_TRY(const Matrix3 adapt, adaptation_matrix(m_request.adaptation, white_of(from), white_of(to)));
+        m_out.matrix = inverse(xyz_from(to)) * adapt * xyz_from(from);
+        name(from.id, to.id);
+        m_out.title += ", adapted by " + std::string(adaptation_name(m_request.adaptation));
+        return {};
+    }
+
+    Result<void> relight() {
+        OSIO_TRY(const Observer seen, colorimetric(m_request.observer));
+        OSIO_TRY(const Illuminant from, light("from light", m_request.from));
+        OSIO_TRY(const Illuminant to, light("to light", m_request.to));
+        use("observer", seen.id, seen.source, seen.digest);
+        OSIO_TRY(const Vector3 white, white_point(to, seen));
+        OSIO_TRY(const ReflectanceSet set, reflectances());
+        name("XYZ under " + from.id, "XYZ under " + to.id);
+        OSIO_TRY(const Vector3 from_white, white_point(from, seen));
+        return fit({from_white, white}, colours(set, from, seen, normalised_to_y(from, seen)),
+                   colours(set, to, seen, normalised_to_y(to, seen)), Matrix3::identity(), white);
+    }
+
+    Result<void> observer() {
+        OSIO_TRY(const Observer from, colorimetric(m_request.from));
+        OSIO_TRY(const Observer to, colorimetric(m_request.to));
+        use("from observer", from.id, from.source, from.digest);
+        use("to observer", to.id, to.source, to.digest);
+        OSIO_TRY(const Illuminant under, light("light", m_request.illuminant));
+        OSIO_TRY(const Vector3 white, white_point(under, to));
+        OSIO_TRY(const ReflectanceSet set, reflectances());
+        name("XYZ of " + from.id, "XYZ of " + to.id);
+        m_out.title += ", under " + under.id;
+        OSIO_TRY(const Vector3 from_white, white_point(under, from));
+        return fit({from_white, white}, colours(set, under, from, normalised_to_y(under, from)),
+                   colours(set, under, to, normalised_to_y(under, to)), Matrix3::identity(), white);
+    }
+
+    Result<void> camera() {
+        OSIO_TRY(const std::string csv, m_load_text(m_request.from));
+        OSIO_TRY(const Observer camera, camera_from_csv(csv, m_request.from));
+        OSIO_TRY(const OutputSpace to, linear_space(m_request.to));
+        OSIO_TRY(const Observer seen, colorimetric(m_request.observer));
+        use("camera", camera.id, camera.source, camera.digest);
+        use("observer", seen.id, seen.source, seen.digest);
+        OSIO_TRY(const Illuminant under, light("light", m_request.illuminant));
+        OSIO_TRY(const Vector3 white, white_point(under, seen));
+        OSIO_TRY(const ReflectanceSet set, reflectances());
+        OSIO_TRY(const Matrix3 adapt, adaptation_matrix(m_request.adaptation, white, white_of(to)));
+        name("R, G, B of " + camera.id + " balanced for " + under.id, to.id);
+        const auto wanted =
+            through(inverse(xyz_from(to)) * adapt, colours(set, under, seen, normalised_to_y(under, seen)));
+        const Vector3 target_white = inverse(xyz_from(to)) * adapt * white;
+        return fit({{1, 1, 1}, target_white}, colours(set, under, camera, balanced(under, camera)), wanted,
+                   xyz_from(to), white_of(to));
+    }
+
+    /// Fits; the residual is of XYZ, which `to_xyz` makes of what was fitted.
+    Result<void> fit(const std::pair<Vector3, Vector3>& whites, const std::vector<Vector3>& from,
+                     const std::vector<Vector3>& to, const Matrix3& to_xyz, const Vector3& white) {
+        OSIO_TRY(m_out.matrix,
+                 m_request.keep_white ? fit_matrix_keeping(whites, from, to) : fit_matrix(from, to));
+        if (m_request.keep_white)
+            m_out.title += ", white kept";
+        m_out.fitted_spectra = from.size();
+        m_out.residual = residual_of(through(to_xyz * m_out.matrix, from), through(to_xyz, to), white);
+        return {};
+    }
+
+    Result<Illuminant> light(const std::string& role, const std::string& name) {
+        OSIO_TRY(Illuminant light, load_light(name, m_load_text));
+        use(role, light.id, light.source, light.digest);
+        return light;
+    }
+
+    Result<ReflectanceSet> reflectances() {
+        OSIO_TRY(ReflectanceSet set, load_reflectances(m_request.reflectances, m_load_text));
+        use("reflectances", set.id, set.source, set.digest);
+        return set;
+    }
+
+    void use(std::string role, std::string name, std::string source, std::string digest) {
+        m_out.tables.push_back({std::move(role), std::move(name), std::move(source), std::move(digest)});
+    }
+
+    void name(std::string input, std::string output) {
+        m_out.title = std::string(matrix_kind_name(m_request.kind)) + ": " + input + " to " + output;
+        m_out.input = std::move(input);
+        m_out.output = std::move(output);
+    }
+
+    const MatrixRequest& m_request;
+    const TextLoader& m_load_text;
+    BakedMatrix m_out;
+};
+
+}  // namespace
+
+std::vector<std::string> BakedMatrix::description() const {
+    std::vector<std::string> out{title};
+    out.push_back(residual ? "least squares over " + std::to_string(fitted_spectra) +
+                                 " spectra, residual CIEDE2000 mean " + format_fixed(residual->mean, 4) +
+                                 ", max " + format_fixed(residual->max, 4)
+                           : std::string("exact: no fit"));
+    for (const UsedTable& table : tables)
+        out.push_back(table.role + " " + table.name + ", digest " + table.digest + ": " + table.source);
+    return out;
+}
+
+std::string_view matrix_kind_name(MatrixKind kind) {
+    for (const auto& [name, known] : kKinds)
+        if (known == kind)
+            return name;
+    return {};
+}
+
+Result<MatrixKind> find_matrix_kind(std::string_view name) {
+    std::vector<std::string> names;
+    for (const auto& [known, kind] : kKinds) {
+        if (iequals(known, name))
+            return kind;
+        names.emplace_back(known);
+    }
+    return fail(ErrorCode::UnknownName,
+                "nothing to bake is called \"" + std::string(name) + "\"" + suggestion(name, names));
+}
+
+Result<BakedMatrix> bake_matrix(const MatrixRequest& request, const TextLoader& load_text) {
+    return Baker(request, load_text).bake();
+}
+
+}  // namespace osio
