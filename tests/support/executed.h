@@ -42,8 +42,9 @@ inline std::vector<float> executed(const CollapsePlan& plan, const std::vector<f
         for (std::size_t i = 0; i < kPixels; ++i) {
             EXPECT_EQ(std::bit_cast<std::uint32_t>(results[0][row][i]),
                       std::bit_cast<std::uint32_t>(results[1][row][i]));
-            if (i != kAt)
+            if (i != kAt) {
                 EXPECT_EQ(results[0][row][i], results[0][row][kAt + 1]);
+            }
         }
         pixel.push_back(results[0][row][kAt]);
     }
