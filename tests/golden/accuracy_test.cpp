@@ -139,22 +139,23 @@ TEST(GoldenAccuracy, SpragueInterpolation) {
     }
 }
 
-/// Reflectances sampled at 5, 10 and 20 nm under a known light.
-TEST(GoldenAccuracy, SampledReflectancesUnderEveryKindOfLight) {
+/// Reflectances sampled at 5, 10 and 20 nm under a known light: the lights and observers of
+/// xyz_resampled.csv.
+TEST(GoldenAccuracy, SampledReflectancesUnderKnownLights) {
     struct Row {
         double step, mean, most;
     };
 
+    const auto fine_nm = steps(360, 1, 830);
     for (const std::string basis : {"sprague", "e2022"})
         for (const Row& row : {Row{5, 0.001, 0.005}, Row{10, 0.02, 0.15}, Row{20, 0.09, 0.9}}) {
             const auto nm = steps(380, row.step, 780);
             Differences differences;
-            for (const auto* lights : {&kSmooth, &kFluorescent, &kLed})
-                for (const std::string& light : *lights) {
-                    const std::string request = "to=xyz&illuminant=" + light;
+            for (const std::string light : {"A", "D50", "D65", "E", "FL2", "FL11", "LED-B3"})
+                for (const std::string observer : {"cie1931", "cie1964"}) {
+                    const std::string request = "to=xyz&illuminant=" + light + "&observer=" + observer;
                     const auto plan = plan_of(set_of(Family::T, nm), request + "&basis=" + basis).value();
-                    const auto fine =
-                        plan_of(set_of(Family::T, steps(360, 1, 830)), request + "&basis=linear").value();
+                    const auto fine = plan_of(set_of(Family::T, fine_nm), request + "&basis=linear").value();
                     for (const Curve& patch : patches()) {
                         Curve samples;
                         for (const double l : nm)

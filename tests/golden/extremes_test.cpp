@@ -97,9 +97,10 @@ TEST(Extremes, BlackIsZeroInEverySpaceAndHasTheWhitesChromaticity) {
     }
 }
 
-/// Thousands of bands say the same as the samples at 1 nm, and adding them up loses nothing.
+/// Thousands of bands say the same as the samples at 1 nm, and adding them up loses nothing. The integral
+/// and the sum differ by what bends between whole nanometres: the curve varies slowly.
 TEST(Extremes, ThousandsOfBandsEqualTheSumAtOneNanometre) {
-    const auto curve = [](double nm) { return 0.5 + 0.4 * std::sin(nm / 17); };
+    const auto curve = [](double nm) { return 0.5 + 0.4 * std::sin(nm / 300); };
     std::vector<double> values;
     for (const double nm : steps(360, 1, 830))
         values.push_back(curve(nm));
@@ -166,8 +167,8 @@ TEST(Extremes, LightsThatShineNowhereOrElsewhereAreErrors) {
     EXPECT_EQ(said_of({550}, "to=xyz", "600,1\n700,1\n"), "a plan");
     EXPECT_EQ(said_of({550.5}, "to=xyz", "380,1\n780,1\n"), "a plan");
     // The observer of 2015 begins at 390 nm: a lamp that ends there has power and no luminance.
-    EXPECT_EQ(said_of(steps(360, 10, 700), "to=xyz&observer=cie2015_2deg", "360,1\n380,1\n").substr(0, 57),
-              "lamp.csv: the light has nothing that cie2015_2deg sees (th");
+    EXPECT_EQ(said_of(steps(360, 10, 700), "to=xyz&observer=cie2015_2deg", "360,1\n380,1\n").substr(0, 36),
+              "lamp.csv: the light has no luminance");
 }
 
 TEST(Extremes, OneBandHasTheWidthThatItsFileStates) {
