@@ -38,8 +38,9 @@ struct BasisChoice {
     std::optional<std::string> warning;
 };
 
-/// The fewest bands for which Auto corrects bins. From here on the mean error is smaller under every class
-/// of light; with fewer, spectral lines make the slopes that neighbours tell wrong (docs/accuracy.md).
+/// The fewest bands for which Auto corrects bins. From here on the mean error over 33 lights is smaller, and
+/// under continuous light by half or more; with fewer, lines make the slopes that neighbours tell wrong as
+/// often as right (docs/accuracy.md).
 inline constexpr std::size_t kFewestCorrectedBins = 8;
 
 /// Decides the basis of a request.
