@@ -39,7 +39,7 @@ struct BasisChoice {
 };
 
 /// The fewest bands for which Auto corrects bins. From here on the mean error over 33 lights is smaller, and
-/// under continuous light by half or more; with fewer, lines make the slopes that neighbours tell wrong as
+/// under continuous light about half or less; with fewer, lines make the slopes that neighbours tell wrong as
 /// often as right (docs/accuracy.md).
 inline constexpr std::size_t kFewestCorrectedBins = 8;
 
