@@ -105,6 +105,11 @@ class Documents(OsioCase):
                 self.run_document(name)
 
 
+class Accuracy(OsioCase):
+    def test_its_tables_are_what_the_programs_give(self):
+        self.check("/usr/bin/python3", os.path.join(SOURCE, "bench", "accuracy.py"), "--check", HOME, timeout=280)
+
+
 class Reference(OsioCase):
     """docs/cli.md names every option, every key of JSON, every name that a word takes."""
 

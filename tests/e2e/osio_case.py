@@ -89,6 +89,40 @@ class OsioCase(unittest.TestCase):
     def osiotool_json(self, *arguments):
         return json.loads(self.osiotool(*arguments, "--json").stdout)
 
+    def both(self, source, depth="float", **words):
+        """(pixels, report, stderr) of a collapse by the tool, which must be the plugin's bit for bit, in
+        Python and in oiiotool. A word that is True is a switch of the tool."""
+        options = [w for key, value in words.items() for w in ([f"--{key}"] if value is True else [f"--{key}", value])]
+        result = self.osiotool("collapse", source, "tool.exr", *options, "-d", depth, "--json")
+        query = "&".join(f"{key}={1 if value is True else value}" for key, value in words.items())
+        report = json.loads(result.stdout)
+        tool = self.in_order("tool.exr", report["channel_names"])
+        if depth == "float":
+            plugin = self.in_order(f"{self.path(source)}?{query}", report["channel_names"])
+            self.assertTrue(np.array_equal(tool.view(np.uint32), plugin.view(np.uint32)), f"{tool}\n{plugin}")
+            self.check("oiiotool", f"{source}?{query}", "-d", depth, "-o", "plugin.exr")
+            stored = self.in_order("plugin.exr", report["channel_names"])
+            self.assertTrue(np.array_equal(tool, stored, equal_nan=True))
+        return tool.astype(np.float64), report, result.stderr
+
+    def in_order(self, name, channel_names):
+        """Pixels with the channels in this order, whatever order a file keeps them in."""
+        channels = self.channels_of(name)
+        self.assertEqual(sorted(channels), sorted(channel_names))
+        return np.stack([channels[n] for n in channel_names], axis=-1)
+
+    def expect(self, actual, expected, allowed=2e-6, scale=None):
+        """The largest error as a share of the largest value, or of `scale`, against what is allowed."""
+        scale = np.abs(expected).max() if scale is None else scale
+        error = np.abs(np.asarray(actual) - expected).max() / scale
+        print(f"{self.id()}: max seen {error:.2g} / max allowed {allowed:g}")
+        self.assertLessEqual(error, allowed)
+
+    def write_table(self, name, *lines):
+        with open(self.path(name), "w") as file:
+            file.write("\n".join(lines) + "\n")
+        return self.path(name)
+
     # Images
 
     def write_exr(self, name, channels, types=FLOAT, writer="openexr", attributes=(), origin=(0, 0),

@@ -17,7 +17,7 @@ TEST(GoldenBasis, AstmE2022WeightsDigitByDigit) {
     std::map<std::string, std::vector<Csv::Row>> tables;
     for (const auto& row : Csv(golden("astm_e2022_weights_380_780.csv")).rows)
         tables[row.at("illuminant") + " " + row.at("observer") + " " + row.at("step_nm")].push_back(row);
-    Bound bound("absolute error of E2022 weights, Y sum = 100", 1e-12);
+    Bound bound("G2 absolute error of E2022 weights, Y sum = 100", 1e-12);
     for (const auto& [name, rows] : tables) {
         std::vector<double> nm;
         for (const auto& row : rows)
@@ -73,7 +73,7 @@ TEST(GoldenBasis, LinesInBinsHaveTheAverageOfTheColourMatchingFunctions) {
             return ones;
         }(),
         Quadrature::Sum1nm);
-    Bound bound("relative XYZ error of lines in bins", 1e-9);
+    Bound bound("G14 relative XYZ error of lines in bins", 1e-9);
     for (const auto& row : Csv(golden("lines.csv")).rows) {
         if (row.at("method") != "bin_average_cmf")
             continue;

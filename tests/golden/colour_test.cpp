@@ -25,7 +25,7 @@ void see_matrix(Bound& bound, const Matrix3& actual, const Matrix3& expected, co
 }
 
 TEST(GoldenColour, WhitePointsAreTheSumsAtOneNanometre) {
-    Bound bound("absolute xy error of white points", 1e-12);
+    Bound bound("G6 absolute xy error of white points", 1e-12);
     for (const auto& row : Csv(golden("whitepoints.csv")).rows) {
         const auto light = find_illuminant(row.at("illuminant"));
         ASSERT_TRUE(light) << light.error().text();
@@ -39,7 +39,7 @@ TEST(GoldenColour, WhitePointsAreTheSumsAtOneNanometre) {
 }
 
 TEST(GoldenColour, WhitePointsAgreeWithThePublishedOnes) {
-    Bound bound("absolute xy distance to the published white points", 3e-4);
+    Bound bound("G6 absolute xy distance to the published white points", 3e-4);
     for (const auto& row : Csv(golden("whitepoints.csv")).rows) {
         if (!parse_double(row.at("x_published_rounded")))
             continue;
@@ -58,7 +58,7 @@ TEST(GoldenColour, PrimaryMatricesAreExact) {
                                                  {"Rec2020", "lin_rec2020"},
                                                  {"ACES2065-1", "aces2065_1"},
                                                  {"ACEScg", "acescg"}};
-    Bound bound("absolute error of RGB matrices against exact rationals", 4e-15);
+    Bound bound("G7 absolute error of RGB matrices against exact rationals", 4e-15);
     for (const auto& row : Csv(golden("rgb_matrices.csv")).rows) {
         if (row.at("variant") != "exact_from_xy" || !ids.contains(row.at("space")))
             continue;
@@ -73,7 +73,7 @@ TEST(GoldenColour, AdaptationMatricesAreExact) {
     std::map<std::string, Vector3> whites;
     for (const auto& row : Csv(golden("white_constants.csv")).rows)
         whites[row.at("white")] = {number(row, "X"), number(row, "Y"), number(row, "Z")};
-    Bound bound("absolute error of adaptation matrices against exact rationals", 4e-15);
+    Bound bound("G7 absolute error of adaptation matrices against exact rationals", 4e-15);
     for (const auto& row : Csv(golden("cat_matrices.csv")).rows)
         see_matrix(bound,
                    adaptation_matrix(find_adaptation(row.at("cat")).value(), whites.at(row.at("from_white")),

@@ -60,8 +60,8 @@ Pair pair_of(const Csv::Row& row) {
 }
 
 TEST(Ciede2000, PublishedPairs) {
-    Bound published("CIEDE2000 of Sharma's 34 pairs against 4 published decimals", 5e-5);
-    Bound exact("CIEDE2000 against 20 digits, without the pair that jumps", 1e-12);
+    Bound published("G8 CIEDE2000 of Sharma's 34 pairs against 4 published decimals", 5e-5);
+    Bound exact("G8 CIEDE2000 against 20 digits, without the pair that jumps", 1e-12);
     std::size_t count = 0;
     for (const auto& row : Csv(golden("ciede2000_sharma34.csv")).rows) {
         const Pair pair = pair_of(row);
@@ -76,7 +76,7 @@ TEST(Ciede2000, PublishedPairs) {
 }
 
 TEST(Ciede2000, RandomPairsAgainstThePrintedFormula) {
-    Bound bound("CIEDE2000 against the printed formula in long double", 1e-12);
+    Bound bound("G8 CIEDE2000 against the printed formula in long double", 1e-12);
     std::mt19937 random(5);
     std::uniform_real_distribution<double> l(0, 100), ab(-120, 120), small(-2, 2);
     for (int i = 0; i < 4000; ++i) {

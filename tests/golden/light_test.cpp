@@ -22,7 +22,7 @@ std::string text_of(const std::string& path) {
 }
 
 TEST(GoldenLight, PlanckIsRightWhereverItIsANormalNumber) {
-    Bound bound("Planck's relative error as a share of 1e-15 + 2.5e-16 x", 1);
+    Bound bound("G9 Planck's relative error as a share of 1e-15 + 2.5e-16 x", 1);
     for (const auto& row : Csv(golden("planck.csv")).rows) {
         const double expected = number(row, "L_nm_float64");
         const double actual = planck_radiance_w_m2_sr_nm(number(row, "lambda_nm"), number(row, "T_K"));
@@ -67,7 +67,7 @@ TEST(GoldenLight, LuminanceAndScotopicLuminance) {
     const auto photopic = plan_of(set, "to=luminance&scale=photometric&basis=linear").value();
     const auto scotopic =
         plan_of(set, "to=luminance&scale=photometric&observer=scotopic&basis=linear").value();
-    Bound bound("relative error of luminances", 1e-12);
+    Bound bound("G10 relative error of luminances", 1e-12);
     for (const auto& row : Csv(golden("luminance.csv")).rows) {
         const std::string name = row.at("spectrum").substr(0, row.at("spectrum").find(' '));
         std::vector<double> radiance(471, 1.0);

@@ -21,7 +21,7 @@ NmSamples power_of(const Csv::Row& row) {
 }
 
 TEST(GoldenPhotometry, LuminanceEfficacyScotopicAndRatio) {
-    Bound bound("relative error of photometry", 1e-12);
+    Bound bound("G10 relative error of photometry", 1e-12);
     for (const auto& row : Csv(golden("luminance.csv")).rows) {
         const LightPhotometry found = photometry_of(power_of(row));
         const std::string& where = row.at("spectrum");

@@ -33,7 +33,7 @@ CollapsePlan plan_for(const Csv::Row& row, const std::vector<double>& nm, const 
 TEST(GoldenWeights, FiveNanometreTableByStraightLinesIsTheSumAtOneNanometre) {
     const Table& ohta = *find_table(kOhta);
     const std::vector<double> nm(ohta.wavelengths_nm.begin(), ohta.wavelengths_nm.end());
-    Bound bound("relative XYZ error, sum1nm_linear", 1e-12);
+    Bound bound("G1 relative XYZ error, sum1nm_linear", 1e-12);
     for (const auto& row : Csv(golden("xyz_colorchecker.csv")).rows) {
         if (row.at("method") != "sum1nm_linear")
             continue;
@@ -46,7 +46,7 @@ TEST(GoldenWeights, FiveNanometreTableByStraightLinesIsTheSumAtOneNanometre) {
 
 TEST(GoldenWeights, OneNanometreTableIsSummedAsItIs) {
     const Csv sprague(golden("colorchecker_n_ohta_1nm_sprague.csv"));
-    Bound bound("relative XYZ error, sum1nm_sprague", 1e-12);
+    Bound bound("G1 relative XYZ error, sum1nm_sprague", 1e-12);
     for (const auto& row : Csv(golden("xyz_colorchecker.csv")).rows) {
         if (row.at("method") != "sum1nm_sprague")
             continue;
@@ -119,7 +119,7 @@ std::vector<double> number_list(const std::string& text) {
 /// Radiance of degenerate spectra. Rows that a plan refuses, and rows whose values are not finite,
 /// have tests of their own.
 TEST(GoldenWeights, DegenerateRadianceSpectra) {
-    Bound bound("relative XYZ error, extremes", 1e-12);
+    Bound bound("G15 relative XYZ error, extremes", 1e-12);
     for (const auto& row : Csv(golden("extremes.csv")).rows) {
         const std::string name = row.at("case");
         std::vector<double> nm, values;

@@ -206,7 +206,8 @@ TEST(BasisChoice, TheFileTheQuantityAndTheStepsDecide) {
     EXPECT_EQ(chosen(Family::T, {400, 410, 430, 500, 600, 620, 700}, {}), "linear");
     EXPECT_EQ(chosen(Family::T, steps(400, 0.5, 700), {}), "linear");
     EXPECT_EQ(chosen(Family::S0, nm, {}), "bins-corrected");
-    EXPECT_EQ(chosen(Family::S0, steps(400, 30, 700), {}), "bins");
+    EXPECT_EQ(chosen(Family::S0, steps(400, 40, 680), {}), "bins-corrected");
+    EXPECT_EQ(chosen(Family::S0, steps(400, 50, 700), {}), "bins");
     EXPECT_EQ(chosen(Family::S0, {400, 410, 430}, {}), "bins");
     EXPECT_EQ(chosen(Family::S0, nm, stating("linear")), "linear");
     EXPECT_EQ(chosen(Family::S0, nm, stating("wavelets")), "bins-corrected!");

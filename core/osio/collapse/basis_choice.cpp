@@ -68,7 +68,7 @@ Result<void> check_fits(Basis basis, const BandGrid& grid) {
 
 BasisChoice suggested(const SpectralSet& set, const BandGrid& grid) {
     if (!grid.responses.empty())
-        return {Basis::Response, "every band states its own response", std::nullopt};
+        return fitted(Basis::Response, "every band states its own response", grid);
     const std::string steps = grid.uniform() ? " at equal steps" : " at unequal steps";
     if (!grid.edges_nm.empty())
         return {Basis::Bins, "the file states the edges of its bins", std::nullopt};

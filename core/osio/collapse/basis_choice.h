@@ -41,9 +41,10 @@ struct BasisChoice {
 /// True where a basis other than Auto can be used on a grid as it is, without falling back to Linear.
 [[nodiscard]] bool basis_fits(Basis basis, const BandGrid& grid);
 
-/// The fewest bands for which Auto corrects bins: with fewer, spectral lines make the slopes that
-/// neighbours tell wrong (docs/accuracy.md).
-inline constexpr std::size_t kFewestCorrectedBins = 13;
+/// The fewest bands for which Auto corrects bins. From here on the mean error over 33 lights is smaller, and
+/// under continuous light about half or less; with fewer, lines make the slopes that neighbours tell wrong as
+/// often as right (docs/accuracy.md).
+inline constexpr std::size_t kFewestCorrectedBins = 8;
 
 /// Decides the basis of a request.
 ///

@@ -84,7 +84,7 @@ class PlanMaker {
         m_plan.space = *m_plan.request.to;
         m_plan.outputs = space_outputs(m_plan.space.transform ? SpaceKind::Rgb : m_plan.space.kind);
         m_plan.distinct = distinct_bands(m_set, m_metadata);
-        return check_grid(m_set, m_plan.request, m_plan.distinct.grid.wavelengths_nm);
+        return check_grid(m_set, m_plan.distinct.grid.wavelengths_nm);
     }
 
     Result<void> look_up() {
@@ -125,7 +125,9 @@ class PlanMaker {
         if (m_plan.basis.warning)
             m_plan.warnings.push_back(*m_plan.basis.warning);
         m_plan.quadrature = quadrature_for(m_plan.basis.basis, m_plan.distinct.grid.wavelengths_nm);
-        return {};
+        OSIO_CHECK_OK(check_width(m_plan));
+        const auto [first, last] = covered();
+        return check_light(m_plan, m_filtered, first, last);
     }
 
     /// The white that adaptation starts from, and that Lab and its like refer to.
@@ -255,7 +257,7 @@ class PlanMaker {
     /// The wavelengths that the bands say something about.
     [[nodiscard]] std::pair<double, double> covered() const {
         const BandGrid& grid = m_plan.distinct.grid;
-        const bool binned = is_binned(m_plan.basis.basis) && grid.size() > 1;
+        const bool binned = is_binned(m_plan.basis.basis) && (grid.size() > 1 || !grid.edges_nm.empty());
         const auto ends =
             binned && m_plan.basis.basis != Basis::Response ? grid.edges() : grid.wavelengths_nm;
         return {ends.front(), ends.back()};

@@ -66,8 +66,8 @@ struct CollapsePlan {
 /// chromaticities refer to that same white, unadapted, and their weights are those of X, Y, Z.
 ///
 /// Refuses, before a pixel is read: a reflectance without an illuminant, a radiance with one, bands
-/// wholly outside 360-830 nm, one band with extrapolation zero (a curve of no width), a basis that the
-/// bands cannot have, words that contradict one another. What is only doubtful becomes a warning.
+/// wholly outside 360-830 nm, one band with extrapolation zero (a curve of no width) unless its bin's edges
+/// are stated, a light without power between the bands, a basis that the bands cannot have, words that contradict one another. What is only doubtful becomes a warning.
 [[nodiscard]] Result<CollapsePlan> make_plan(const SpectralSet& set, const SpectralMetadata& metadata,
                                              const CollapseRequest& request, const TextLoader& load_text);
 

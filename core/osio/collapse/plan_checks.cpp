@@ -89,19 +89,42 @@ Result<void> check_observer(const Observer& observer, const OutputSpace& space) 
     return {};
 }
 
-Result<void> check_grid(const SpectralSet& set, const CollapseRequest& request,
-                        const std::vector<double>& nm) {
+Result<void> check_grid(const SpectralSet& set, const std::vector<double>& nm) {
     if (nm.empty())
         return fail(ErrorCode::InvalidGrid, "set " + set.name() + " holds no band");
     const std::string range = format_double(nm.front()) + "-" + format_double(nm.back()) + " nm";
     if (nm.front() > kObserverLastNm || nm.back() < kObserverFirstNm)
         return fail(ErrorCode::BandsOutsideObserver, "the bands of set " + set.name() + " cover " + range +
                                                          ", nothing of the 360-830 nm that an observer sees");
-    if (nm.size() == 1 && request.extrapolation == Extrapolation::Zero)
-        return fail(ErrorCode::InvalidGrid,
-                    "set " + set.name() + " has one wavelength, " + format_double(nm[0]) +
-                        " nm: with extrapolate=zero its spectrum has no width; use extrapolate=hold");
     return {};
+}
+
+Result<void> check_width(const CollapsePlan& plan) {
+    const BandGrid& grid = plan.distinct.grid;
+    const bool has_width = grid.size() > 1 || (is_binned(plan.basis.basis) && !grid.edges_nm.empty());
+    if (has_width || plan.request.extrapolation == Extrapolation::Hold)
+        return {};
+    return fail(ErrorCode::InvalidGrid, "set " + plan.request.set + " has one wavelength, " +
+                                            format_double(grid.wavelengths_nm.front()) +
+                                            " nm: with extrapolate=zero its spectrum has no width; "
+                                            "use extrapolate=hold");
+}
+
+Result<void> check_light(const CollapsePlan& plan, const NmSamples& power, double first_nm, double last_nm) {
+    if (!plan.illuminant || plan.distinct.grid.size() == 1)
+        return {};
+    for (std::size_t i = 0; i < power.size(); ++i) {
+        const double nm = kObserverFirstNm + static_cast<double>(i);
+        // A light that ends at the next whole nanometre reaches in between by its straight line.
+        if (power[i] > 0 && nm > first_nm - 1 && nm < last_nm + 1)
+            return {};
+    }
+    return fail(ErrorCode::InvalidGrid,
+                "the light has no power over " + format_double(first_nm) + "-" + format_double(last_nm) +
+                    " nm, which is what the bands of set " + plan.request.set +
+                    " say something of: all of the result would be extrapolated; use another light, or bands "
+                    "where it shines",
+                plan.illuminant->id);
 }
 
 std::optional<std::string> extrapolation_warning(const CollapsePlan& plan, double first_nm, double last_nm) {

@@ -24,8 +24,17 @@ namespace osio {
 [[nodiscard]] Result<void> check_observer(const Observer& observer, const OutputSpace& space);
 
 /// InvalidGrid or BandsOutsideObserver where the distinct wavelengths define no curve that is seen.
-[[nodiscard]] Result<void> check_grid(const SpectralSet& set, const CollapseRequest& request,
-                                      const std::vector<double>& wavelengths_nm);
+[[nodiscard]] Result<void> check_grid(const SpectralSet& set, const std::vector<double>& wavelengths_nm);
+
+/// InvalidGrid for one wavelength without a width under Extrapolation::Zero: its curve has no area. A
+/// bin whose edges the file states has a width.
+[[nodiscard]] Result<void> check_width(const CollapsePlan& plan);
+
+/// InvalidGrid where a light has no power between the bands, which say something of first to last nm:
+/// every weight would rest on extrapolation. One wavelength says the same of all and is not refused.
+/// `power`: of the light, its filters included, at 1 nm.
+[[nodiscard]] Result<void> check_light(const CollapsePlan& plan, const NmSamples& power, double first_nm,
+                                       double last_nm);
 
 /// What a user should know of the weight beyond the bands, which say something of first to last nm.
 [[nodiscard]] std::optional<std::string> extrapolation_warning(const CollapsePlan& plan, double first_nm,
