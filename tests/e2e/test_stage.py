@@ -30,8 +30,10 @@ class Stage(OsioCase):
             "bin/osiotool",
             "env.sh",
             "lib/osio/oiio-2.4/spectralexr.imageio.so",
+            "lib/osio/osio_ocio.so",
             "lib/osio/osio_oiio-2.4.so",
             "share/osio/LICENSE",
+            "share/osio/configs/README.md",
             "share/osio/configs/osio.ocio",
             "share/osio/data/README.md",
             "share/osio/data/sources.tsv",
@@ -46,6 +48,9 @@ class Stage(OsioCase):
             osiotool collapse shot.exr b.exr --to acescg --illuminant D65 --quiet
             osiotool collapse shot.exr c.png --to srgb --illuminant D65 --quiet
             idiff -q -fail 2e-5 a.exr b.exr
+            osiotool collapse shot.exr d.exr --to ACEScct --illuminant A --quiet
+            oiiotool "shot.exr?to=ACEScct&illuminant=A" -o e.exr
+            idiff -q -fail 0 d.exr e.exr
             ociocheck >check.txt
             echo "$OCIO"''')
         self.assertIn(f"{self.prefix}/share/osio/configs/osio.ocio", said)
