@@ -172,6 +172,12 @@ class Refusals(Bake):
         self.refused(2, "has no colour", "observer", "m.clf", "--from", "photopic", "--to", "cie1931")
         self.refused(2, "no set of reflectances", "relight", "m.clf", "--from", "A", "--to", "D65",
                      "--reflectances", "munsell")
+        for what, names, words in (("primaries", ("acescg", "lin_rec709"), ("--reflectances", "colorchecker")),
+                                   ("primaries", ("acescg", "lin_rec709"), ("--observer", "cie1931")),
+                                   ("adaptation", ("A", "D65"), ("--keep-white",)),
+                                   ("relight", ("A", "D65"), ("--illuminant", "D50")),
+                                   ("relight", ("A", "D65"), ("--adapt", "cat02"))):
+            self.refused(2, "has no use for", what, "m.clf", "--from", names[0], "--to", names[1], *words)
         self.refused(5, "No such file", "relight", "m.clf", "--from", "A", "--to", "D65", "--reflectances", "no.csv")
         for words in (("--size", "1"), ("--size", "1000"), ("--domain", "1,0"), ("--domain", "1")):
             self.refused(2, "expected", "relight", "m.cube", "--from", "A", "--to", "D65", *words)

@@ -21,13 +21,15 @@ TEST(Request, ARecipeReadsBackAsTheSameRequest) {
           "to=xyz_d65&names=xyz&set=left.T&part=beauty&extrapolate=zero&observer=CIE1964&illuminant=FL11",
           "to=luminance&scale=photometric&basis=bins-corrected&filter=a.csv&filter=b.csv,c.csv&filter-"
           "normalise=1",
-          "to=display&display=panel.csv&illuminant=D(6200)", "to=raw&names=layout", "to=lab&illuminant=A", "to=xyY", "to=acescg&illuminant=A&adapt=CAT16",
+          "to=display&display=panel.csv&illuminant=D(6200)", "to=raw&names=layout", "to=lab&illuminant=A",
+          "to=xyY", "to=acescg&illuminant=A&adapt=CAT16",
           "to=rgb:0.64,0.33,0.3,0.6,0.15,0.06,0.3127,0.329&illuminant=A"}) {
         const std::string once = recipe_text(request_of(text));
         EXPECT_EQ(recipe_text(request_of(once)), once) << text;
     }
     EXPECT_EQ(recipe_text(request_of("to=srgb&illuminant=A")),
-              "to=srgb&illuminant=A&observer=cie1931&basis=auto&extrapolate=hold&scale=relative&adapt=bradford&exposure=0");
+              "to=srgb&illuminant=A&observer=cie1931&basis=auto&extrapolate=hold&scale=relative&adapt="
+              "bradford&exposure=0");
 }
 
 TEST(Request, MistypedWordsAreAnsweredWithTheNearest) {

@@ -94,10 +94,46 @@ std::vector<Vector3> through(const Matrix3& matrix, std::vector<Vector3> colours
     return colours;
 }
 
+/// A word without effect is a mistake that nobody would notice.
+Result<void> check_words(const MatrixRequest& request) {
+    const MatrixKind kind = request.kind;
+    const bool fitted = kind != MatrixKind::Adaptation && kind != MatrixKind::Primaries;
+    const bool camera = kind == MatrixKind::Camera;
+
+    struct Word {
+        std::string_view name;
+        bool given, used;
+    };
+
+    const std::array<Word, 5> words{{
+        {"illuminant", !request.illuminant.empty(), camera || kind == MatrixKind::Observer},
+        {"observer", !request.observer.empty(),
+         camera || kind == MatrixKind::Adaptation || kind == MatrixKind::Relight},
+        {"reflectances", !request.reflectances.empty(), fitted},
+        {"keep-white", request.keep_white, fitted},
+        {"adapt", request.adaptation.has_value(), camera || !fitted},
+    }};
+    for (const Word& word : words)
+        if (word.given && !word.used)
+            return fail(ErrorCode::Usage, std::string(word.name) + " was given, which " +
+                                              std::string(matrix_kind_name(kind)) +
+                                              " has no use for; leave it out");
+    return {};
+}
+
 class Baker {
   public:
     Baker(const MatrixRequest& request, const TextLoader& load_text)
-        : m_request(request), m_load_text(load_text) {}
+        : m_request(request), m_load_text(load_text),
+          m_adaptation(request.adaptation.value_or(Adaptation::Bradford)) {
+        const auto set_default = [](std::string& value, const char* otherwise) {
+            if (value.empty())
+                value = otherwise;
+        };
+        set_default(m_request.illuminant, "D65");
+        set_default(m_request.observer, "cie1931");
+        set_default(m_request.reflectances, "colorchecker");
+    }
 
     Result<BakedMatrix> bake() {
         const auto done = run();
@@ -125,19 +161,19 @@ class Baker {
         use("observer", seen.id, seen.source, seen.digest);
         OSIO_TRY(const Vector3 from_white, white_point(from, seen));
         OSIO_TRY(const Vector3 to_white, white_point(to, seen));
-        OSIO_TRY(m_out.matrix, adaptation_matrix(m_request.adaptation, from_white, to_white));
+        OSIO_TRY(m_out.matrix, adaptation_matrix(m_adaptation, from_white, to_white));
         name("XYZ under " + from.id, "XYZ under " + to.id);
-        m_out.title += ", adapted by " + std::string(adaptation_name(m_request.adaptation));
+        m_out.title += ", adapted by " + std::string(adaptation_name(m_adaptation));
         return {};
     }
 
     Result<void> primaries() {
         OSIO_TRY(const OutputSpace from, linear_space(m_request.from));
         OSIO_TRY(const OutputSpace to, linear_space(m_request.to));
-        OSIO_TRY(const Matrix3 adapt, adaptation_matrix(m_request.adaptation, white_of(from), white_of(to)));
+        OSIO_TRY(const Matrix3 adapt, adaptation_matrix(m_adaptation, white_of(from), white_of(to)));
         m_out.matrix = inverse(xyz_from(to)) * adapt * xyz_from(from);
         name(from.id, to.id);
-        m_out.title += ", adapted by " + std::string(adaptation_name(m_request.adaptation));
+        m_out.title += ", adapted by " + std::string(adaptation_name(m_adaptation));
         return {};
     }
 
@@ -179,7 +215,7 @@ class Baker {
         OSIO_TRY(const Illuminant under, light("light", m_request.illuminant));
         OSIO_TRY(const Vector3 white, white_point(under, seen));
         OSIO_TRY(const ReflectanceSet set, reflectances());
-        OSIO_TRY(const Matrix3 adapt, adaptation_matrix(m_request.adaptation, white, white_of(to)));
+        OSIO_TRY(const Matrix3 adapt, adaptation_matrix(m_adaptation, white, white_of(to)));
         name("R, G, B of " + camera.id + " balanced for " + under.id, to.id);
         const auto wanted =
             through(inverse(xyz_from(to)) * adapt, colours(set, under, seen, normalised_to_y(under, seen)));
@@ -222,8 +258,9 @@ class Baker {
         m_out.output = std::move(output);
     }
 
-    const MatrixRequest& m_request;
+    MatrixRequest m_request;
     const TextLoader& m_load_text;
+    Adaptation m_adaptation;
     BakedMatrix m_out;
 };
 
@@ -259,6 +296,7 @@ Result<MatrixKind> find_matrix_kind(std::string_view name) {
 }
 
 Result<BakedMatrix> bake_matrix(const MatrixRequest& request, const TextLoader& load_text) {
+    OSIO_CHECK_OK(check_words(request));
     return Baker(request, load_text).bake();
 }
 

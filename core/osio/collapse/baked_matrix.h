@@ -25,14 +25,13 @@ enum class MatrixKind {
 /// What to bake.
 struct MatrixRequest {
     MatrixKind kind{};
-    std::string from;                  ///< a light, space, observer or camera's table, by kind
-    std::string to;                    ///< the same; of a camera a space
-    std::string illuminant = "D65";    ///< Observer, Camera: the light on the reflectances
-    std::string observer = "cie1931";  ///< Adaptation, Relight, Camera
-    std::string reflectances =
-        "colorchecker";  ///< fitted to; or the path of a .csv: nm, one column a spectrum
-    Adaptation adaptation = Adaptation::Bradford;
-    bool keep_white = false;  ///< of fits: the perfect diffuser comes out exactly
+    std::string from;          ///< a light, space, observer or camera's table, by kind
+    std::string to;            ///< the same; of a camera a space
+    std::string illuminant;    ///< Observer, Camera: the light on the reflectances; empty: D65
+    std::string observer;      ///< Adaptation, Relight, Camera; empty: cie1931
+    std::string reflectances;  ///< fits; "colorchecker" (empty too), or a .csv: nm, one column a spectrum
+    std::optional<Adaptation> adaptation;  ///< Adaptation, Primaries, Camera; nothing: Bradford
+    bool keep_white = false;               ///< of fits: the perfect diffuser comes out exactly
 };
 
 /// A table that took part.
@@ -61,7 +60,7 @@ struct BakedMatrix {
 
 /// Computes the matrix. Fits are least squares over the set (of a camera on the space's R, G, B); the residual is CIEDE2000
 /// under the white of the target. Relight and Observer do not adapt: white becomes the other light's or
-/// observer's white. Usage for spaces that are not linear red, green, blue or XYZ under D65; refusals of
+/// observer's white. Usage for words that the kind has no use for, for spaces that are not linear red, green, blue or XYZ under D65; refusals of
 /// tables.
 [[nodiscard]] Result<BakedMatrix> bake_matrix(const MatrixRequest& request, const TextLoader& load_text);
 
