@@ -13,10 +13,6 @@ target_compile_options(osio_flags INTERFACE
 if(OSIO_WERROR)
   target_compile_options(osio_flags INTERFACE -Werror)
 endif()
-if(OSIO_SANITIZE)
-  # The checks put into the code make g++ 12 see paths that do not exist; the other presets keep the warning.
-  target_compile_options(osio_flags INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
-endif()
 foreach(sanitizer IN LISTS OSIO_SANITIZE)
   target_compile_options(osio_flags INTERFACE -fsanitize=${sanitizer} -fno-omit-frame-pointer)
   target_link_options(osio_flags INTERFACE -fsanitize=${sanitizer})

@@ -174,6 +174,7 @@ class Refusal(DamageCase):
 
         def limit():
             resource.setrlimit(resource.RLIMIT_AS, (1 << 28, 1 << 28))
+        sanitized = "san" in os.environ.get("LD_PRELOAD", "")  # reserves terabytes of addresses for itself
         for window in ((0, 0, 2 ** 29, 3), (0, 0, 3, 2 ** 29), (0, 0, 2 ** 24, 2 ** 24), (0, 0, 2 ** 31 - 1, 3),
                        (-2 ** 31, 0, 3, 3), (0, 0, 40000, 40000)):
             data = bytearray(whole)
@@ -181,7 +182,7 @@ class Refusal(DamageCase):
             self.store("huge.exr", data)
             for command in (("verify", "huge.exr"), ("collapse", "huge.exr", "o.exr", *WORDS),
                             ("info", "huge.exr")):
-                self.osiotool(*command, code=4, preexec_fn=limit)
+                self.osiotool(*command, code=4, preexec_fn=None if sanitized else limit)
         self.assertEqual(self.files(), ["a.exr", "huge.exr"])
 
 
