@@ -38,7 +38,7 @@ def make_image(path, wavelengths, width, height):
     """A noisy picture of smooth spectra, half floats, zip: what a camera or a path tracer leaves."""
     random = np.random.default_rng(1)
     spec = oiio.ImageSpec(width, height, len(wavelengths), oiio.HALF)
-    spec.channelnames = tuple(f"T.{nm:g}nm" for nm in wavelengths)
+    spec.channelnames = tuple(f"T.{nm:g}nm".replace(".", ",").replace(",", ".", 1) for nm in wavelengths)
     spec.attribute("compression", "zip")
     sink = oiio.ImageOutput.create(path)
     assert sink.open(path, spec), sink.geterror()
