@@ -81,10 +81,15 @@ Result<void> visit_blocks(const BlockSource& source, RowRange rows, Runner& runn
         OSIO_TRY(const auto reader, source.start_reader());
         const auto visitor = start();
         while (const auto index = turnstile.take()) {
-            OSIO_TRY(const PlanarBlock block, reader->read(*index));
-            visitor->process(block);
+            const Result<PlanarBlock> block = reader->read(*index);
+            if (block)
+                visitor->process(*block);
+            // An unreadable block fails in its turn too: whichever thread is first, the error named is
+            // that of the first bad block.
             const auto deliver = [&]() -> Result<void> {
-                OSIO_CHECK_OK(visitor->deliver(block));
+                if (!block)
+                    return tl::unexpected(block.error());
+                OSIO_CHECK_OK(visitor->deliver(*block));
                 return report(*index);
             };
             if (!turnstile.in_turn(*index, deliver))

@@ -76,7 +76,8 @@ class BlockVisitor {
 using StartVisitor = std::function<std::unique_ptr<BlockVisitor>()>;
 
 /// Reads the blocks that hold `rows` on the runner's workers, each block once. Memory is one block a
-/// worker, whatever the image. The first failure stops the work and is returned.
+/// worker, whatever the image. A failure stops the work; that of the first bad block is returned,
+/// whichever was met first.
 [[nodiscard]] Result<void> visit_blocks(const BlockSource& source, RowRange rows, Runner& runner,
                                         const StartVisitor& start, const Progress& progress);
 
