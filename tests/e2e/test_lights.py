@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Several lights at once: the files, subimages and plans that each of them alone would give."""
 
+import os
 import unittest
 
 import numpy as np
@@ -102,6 +103,9 @@ class Lights(OsioCase):
     def test_one_light_has_its_name_too(self):
         self.osiotool("collapse", "a.exr", "x_{illuminant}.exr", "--to", "xyz", "--illuminant", "d65", "--quiet")
         self.assertIn("x_D65.exr", self.files())
+        os.mkdir(self.path("A"))
+        self.osiotool("collapse", "a.exr", "{illuminant}/x_{illuminant}.exr", "--to", "xyz", "--illuminant", "A", "--quiet")
+        self.assertEqual(os.listdir(self.path("A")), ["x_A.exr"])
 
     def test_refusals_leave_nothing(self):
         self.write_exr("s.exr", self.bands(GRID, shape=(4, 4), prefix="S0", seed=2))

@@ -166,18 +166,19 @@ Result<StoredType> choose_depth(const CollapseOptions& options, const OutputSpac
 Result<std::vector<CollapseOutput>> open_outputs(const CollapseOptions& options,
                                                  const std::vector<exr::CollapseJob>& jobs,
                                                  const std::vector<exr::BadRows>& missing, StoredType type) {
-    const std::size_t at = options.output.find(kIlluminantMark);
-    if (at == std::string::npos && jobs.size() > 1 && !is_exr(options.output))
+    const bool marked = options.output.find(kIlluminantMark) != std::string::npos;
+    if (!marked && jobs.size() > 1 && !is_exr(options.output))
         return fail(ErrorCode::Usage,
                     "several lights need an .exr, which then has as many parts, or several files: expected " +
                         std::string(kIlluminantMark) + " in the output's name");
-    OSIO_TRY(const auto names, names_of(jobs, at != std::string::npos || jobs.size() > 1));
-    if (at == std::string::npos && is_exr(options.output))
+    OSIO_TRY(const auto names, names_of(jobs, marked || jobs.size() > 1));
+    if (!marked && is_exr(options.output))
         return open_exr(options, options.output, jobs, names, missing, type);
     std::vector<CollapseOutput> out;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         std::string path = options.output;
-        if (at != std::string::npos)
+        for (std::size_t at = 0; (at = path.find(kIlluminantMark, at)) != std::string::npos;
+             at += names[i].size())
             path.replace(at, kIlluminantMark.size(), names[i]);
         if (is_exr(path)) {
             OSIO_TRY(auto one, open_exr(options, path, {&jobs[i], 1}, {}, missing, type));
