@@ -8,26 +8,9 @@ The truth is the sum at 1 nm of the 24 ColorChecker reflectances of tests/golden
 rule sees them only at its bands. Distances are CIE 1976 dE*ab against the light's own white; the largest and the
 mean over the patches. Needs numpy."""
 
-import csv
-import os
-
 import numpy as np
 
-ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
-
-
-def table(path):
-    with open(os.path.join(ROOT, path)) as file:
-        rows = list(csv.reader(file))
-    return {name: np.array([float(row[i]) for row in rows[1:]]) for i, name in enumerate(rows[0])}
-
-
-CMF = table("data/observers/cie1931.csv")
-NM = CMF["wavelength_nm"]
-BARS = np.stack([CMF[c] for c in ("x_bar", "y_bar", "z_bar")])
-LIGHTS = table("data/illuminants/cie_1nm.csv")
-PATCHES = np.stack([v for k, v in table("tests/golden/colorchecker_n_ohta_1nm_sprague.csv").items()
-                    if k != "wavelength_nm"])
+from tables import BARS, COLORCHECKER as PATCHES, LIGHTS, NM
 
 
 def lab(xyz, white):

@@ -39,7 +39,7 @@ TEST(MatrixFit, AMatrixIsFoundAgain) {
     for (std::size_t r = 0; r < 3; ++r)
         for (std::size_t c = 0; c < 3; ++c)
             EXPECT_NEAR(found.rows[r][c], kMatrix.rows[r][c], 1e-13);
-    EXPECT_LT(residual_of(to, to, {0.95, 1, 1.09}).max, 1e-12);
+    EXPECT_LT(differences_of(to, to, {0.95, 1, 1.09}).max, 1e-12);
 }
 
 TEST(MatrixFit, NoOtherMatrixIsNearer) {

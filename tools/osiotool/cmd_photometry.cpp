@@ -75,12 +75,7 @@ Result<ExitCode> photometry_of_light(const PhotometryOptions& options, const Col
     if (request.illuminant.empty())
         return fail(ErrorCode::Usage, "name a spectral file, or a light with --illuminant");
     LightOutcome outcome;
-    if (is_table_path(request.illuminant)) {
-        OSIO_TRY(const std::string csv, files::read_text(request.illuminant));
-        OSIO_TRY(outcome.light, illuminant_from_csv(csv, request.illuminant));
-    } else {
-        OSIO_TRY(outcome.light, find_illuminant(request.illuminant));
-    }
+    OSIO_TRY(outcome.light, load_illuminant(request.illuminant, files::text_loader({})));
     OSIO_TRY(const Observer observer, find_observer("cie1931"));
     OSIO_TRY(const Vector3 white, white_point(outcome.light, observer));
     outcome.photometry = photometry_of(outcome.light.power);

@@ -78,7 +78,8 @@ std::string curve_name(const OutputSpace& space) {
 Json spread_json(const CollapsePlan& plan) {
     Json out = Json::object();
     for (const BasisSpread& spread : basis_spread(plan))
-        out[std::string(basis_name(spread.basis))] = {{"mean", spread.mean}, {"max", spread.max}};
+        out[std::string(basis_name(spread.basis))] = {{"mean", spread.residual.mean},
+                                                      {"max", spread.residual.max}};
     return out;
 }
 

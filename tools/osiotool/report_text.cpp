@@ -135,7 +135,7 @@ std::string plan_text(const exr::CollapseJob& job) {
     out += fmt::format("basis        {}: {}\n", basis_name(plan.basis.basis), plan.basis.reason);
     for (const BasisSpread& spread : basis_spread(plan))
         out += fmt::format("  if {:<14} {:.2f} dE2000 mean, {:.2f} max, over the ColorChecker\n",
-                           basis_name(spread.basis), spread.mean, spread.max);
+                           basis_name(spread.basis), spread.residual.mean, spread.residual.max);
     for (const Filter& filter : plan.filters)
         out += fmt::format("filter       {}\n", filter.path);
     if (plan.display)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <osio/base/text.h>
 #include <osio/collapse/baked_matrix.h>
+#include <osio/colour/matrix_fit.h>
 #include <osio/colour/reflectance_set.h>
 
 #include <array>
@@ -16,13 +17,6 @@ constexpr std::array<std::pair<std::string_view, MatrixKind>, 5> kKinds{{
     {"observer", MatrixKind::Observer},
     {"camera", MatrixKind::Camera},
 }};
-
-Result<Illuminant> load_light(const std::string& name, const TextLoader& load_text) {
-    if (!is_table_path(name))
-        return find_illuminant(name);
-    OSIO_TRY(const std::string csv, load_text(name));
-    return illuminant_from_csv(csv, name);
-}
 
 Result<ReflectanceSet> load_reflectances(const std::string& name, const TextLoader& load_text) {
     if (!is_table_path(name))
@@ -57,35 +51,37 @@ Vector3 white_of(const OutputSpace& space) {
     return space.kind == SpaceKind::Rgb ? space.white.xyz() : kD65.xyz();
 }
 
-/// Sums of light x reflectance x each curve at 1 nm, each times `k`.
+Vector3 curve_integrals(const NmSamples& radiance, const Observer& observer) {
+    const auto with = [&](std::size_t c) {
+        return integral(radiance, observer.curves[c], Quadrature::Sum1nm);
+    };
+    return {with(0), with(1), with(2)};
+}
+
+/// Integrals of light x reflectance x each curve, each times `k`.
 std::vector<Vector3> colours(const ReflectanceSet& set, const Illuminant& light, const Observer& observer,
                              const Vector3& k) {
     std::vector<Vector3> out;
     for (const NmSamples& reflectance : set.spectra) {
-        Vector3 sum{};
-        for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t i = 0; i < reflectance.size(); ++i)
-                sum[c] += k[c] * light.power[i] * reflectance[i] * observer.curves[c][i];
-        out.push_back(sum);
+        NmSamples reflected = reflectance;
+        for (std::size_t i = 0; i < reflected.size(); ++i)
+            reflected[i] *= light.power[i];
+        const Vector3 sums = curve_integrals(reflected, observer);
+        out.push_back({k[0] * sums[0], k[1] * sums[1], k[2] * sums[2]});
     }
     return out;
 }
 
 /// What makes the perfect diffuser's Y 1.
 Vector3 normalised_to_y(const Illuminant& light, const Observer& observer) {
-    double sum = 0;
-    for (std::size_t i = 0; i < light.power.size(); ++i)
-        sum += light.power[i] * observer.curves[1][i];
-    return {1 / sum, 1 / sum, 1 / sum};
+    const double k = 1 / curve_integrals(light.power, observer)[1];
+    return {k, k, k};
 }
 
 /// What makes the perfect diffuser (1, 1, 1).
 Vector3 balanced(const Illuminant& light, const Observer& camera) {
-    Vector3 sum{};
-    for (std::size_t c = 0; c < 3; ++c)
-        for (std::size_t i = 0; i < light.power.size(); ++i)
-            sum[c] += light.power[i] * camera.curves[c][i];
-    return {1 / sum[0], 1 / sum[1], 1 / sum[2]};
+    const Vector3 sums = curve_integrals(light.power, camera);
+    return {1 / sums[0], 1 / sums[1], 1 / sums[2]};
 }
 
 std::vector<Vector3> through(const Matrix3& matrix, std::vector<Vector3> colours) {
@@ -154,15 +150,27 @@ class Baker {
         return {};
     }
 
-    Result<void> adaptation() {
-        OSIO_TRY(const Observer seen, colorimetric(m_request.observer));
-        OSIO_TRY(const Illuminant from, light("from light", m_request.from));
-        OSIO_TRY(const Illuminant to, light("to light", m_request.to));
+    /// Two lights that one observer sees.
+    struct Lights {
+        Observer observer;
+        Illuminant from, to;
+        Vector3 from_white, to_white;
+    };
+
+    Result<Lights> lights() {
+        OSIO_TRY(Observer seen, colorimetric(m_request.observer));
+        OSIO_TRY(Illuminant from, light("from light", m_request.from));
+        OSIO_TRY(Illuminant to, light("to light", m_request.to));
         use("observer", seen.id, seen.source, seen.digest);
         OSIO_TRY(const Vector3 from_white, white_point(from, seen));
         OSIO_TRY(const Vector3 to_white, white_point(to, seen));
-        OSIO_TRY(m_out.matrix, adaptation_matrix(m_adaptation, from_white, to_white));
         name("XYZ under " + from.id, "XYZ under " + to.id);
+        return Lights{std::move(seen), std::move(from), std::move(to), from_white, to_white};
+    }
+
+    Result<void> adaptation() {
+        OSIO_TRY(const Lights two, lights());
+        OSIO_TRY(m_out.matrix, adaptation_matrix(m_adaptation, two.from_white, two.to_white));
         m_out.title += ", adapted by " + std::string(adaptation_name(m_adaptation));
         return {};
     }
@@ -178,16 +186,13 @@ class Baker {
     }
 
     Result<void> relight() {
-        OSIO_TRY(const Observer seen, colorimetric(m_request.observer));
-        OSIO_TRY(const Illuminant from, light("from light", m_request.from));
-        OSIO_TRY(const Illuminant to, light("to light", m_request.to));
-        use("observer", seen.id, seen.source, seen.digest);
-        OSIO_TRY(const Vector3 white, white_point(to, seen));
+        OSIO_TRY(const Lights two, lights());
         OSIO_TRY(const ReflectanceSet set, reflectances());
-        name("XYZ under " + from.id, "XYZ under " + to.id);
-        OSIO_TRY(const Vector3 from_white, white_point(from, seen));
-        return fit({from_white, white}, colours(set, from, seen, normalised_to_y(from, seen)),
-                   colours(set, to, seen, normalised_to_y(to, seen)), Matrix3::identity(), white);
+        const auto under = [&](const Illuminant& light) {
+            return colours(set, light, two.observer, normalised_to_y(light, two.observer));
+        };
+        return fit({two.from_white, two.to_white}, under(two.from), under(two.to), Matrix3::identity(),
+                   two.to_white);
     }
 
     Result<void> observer() {
@@ -232,12 +237,12 @@ class Baker {
         if (m_request.keep_white)
             m_out.title += ", white kept";
         m_out.fitted_spectra = from.size();
-        m_out.residual = residual_of(through(to_xyz * m_out.matrix, from), through(to_xyz, to), white);
+        m_out.residual = differences_of(through(to_xyz * m_out.matrix, from), through(to_xyz, to), white);
         return {};
     }
 
     Result<Illuminant> light(const std::string& role, const std::string& name) {
-        OSIO_TRY(Illuminant light, load_light(name, m_load_text));
+        OSIO_TRY(Illuminant light, load_illuminant(name, m_load_text));
         use(role, light.id, light.source, light.digest);
         return light;
     }

@@ -4,7 +4,7 @@
 #include <osio/base/matrix3.h>
 #include <osio/base/result.h>
 #include <osio/collapse/plan.h>
-#include <osio/colour/matrix_fit.h>
+#include <osio/colour/difference.h>
 
 #include <optional>
 #include <string>
@@ -46,7 +46,7 @@ struct BakedMatrix {
     Matrix3 matrix;
     std::string title;                    ///< one line: from what to what
     std::string input, output;            ///< what three numbers are before and after
-    std::optional<FitResidual> residual;  ///< of fitted matrices
+    std::optional<DifferenceSummary> residual;  ///< of fitted matrices
     std::size_t fitted_spectra = 0;
     std::vector<UsedTable> tables;
 
@@ -58,10 +58,10 @@ struct BakedMatrix {
 [[nodiscard]] std::string_view matrix_kind_name(MatrixKind kind);
 [[nodiscard]] Result<MatrixKind> find_matrix_kind(std::string_view name);
 
-/// Computes the matrix. Fits are least squares over the set (of a camera on the space's R, G, B); the residual is CIEDE2000
-/// under the white of the target. Relight and Observer do not adapt: white becomes the other light's or
-/// observer's white. Usage for words that the kind has no use for, for spaces that are not linear red, green, blue or XYZ under D65; refusals of
-/// tables.
+/// Computes the matrix. Fits are least squares over the set (of a camera on the space's R, G, B); the
+/// residual is CIEDE2000 under the white of the target. Relight and Observer do not adapt: white becomes
+/// the other light's or observer's white. Usage for words that the kind has no use for and for spaces
+/// that are not linear red, green, blue or XYZ under D65; refusals of tables.
 [[nodiscard]] Result<BakedMatrix> bake_matrix(const MatrixRequest& request, const TextLoader& load_text);
 
 }  // namespace osio

@@ -1,25 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <osio/collapse/basis_spread.h>
-#include <osio/colour/difference.h>
-#include <osio/colour/table_samples.h>
-#include <osio/data/tables.h>
+#include <osio/colour/reflectance_set.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <numeric>
 
 namespace osio {
 
 namespace {
-
-/// The patches at 1 nm; beyond their table they keep their end values.
-std::vector<NmSamples> patches() {
-    std::vector<NmSamples> out;
-    const Table* const table = find_table("reflectances/colorchecker_n_ohta.csv");
-    for (const std::string_view name : table->columns)
-        out.push_back(sampled_at_1nm_held(*table->column(name)));
-    return out;
-}
 
 double at(const NmSamples& samples, double nm) {
     const double last = static_cast<double>(kObserverSampleCount - 1);
@@ -29,13 +20,15 @@ double at(const NmSamples& samples, double nm) {
     return (1 - share) * samples[below] + share * samples[below + 1];
 }
 
-/// The mean over a bin, by the trapezoidal rule at a tenth of a nanometre or finer.
+/// The mean over a bin: exact, since the samples are joined by straight lines.
 double mean_over(const NmSamples& samples, double from, double to) {
-    const int steps = std::max(1, static_cast<int>(std::ceil((to - from) * 10)));
     double sum = 0;
-    for (int i = 0; i <= steps; ++i)
-        sum += (i == 0 || i == steps ? 0.5 : 1.0) * at(samples, from + (to - from) * i / steps);
-    return sum / steps;
+    for (double a = from; a < to;) {
+        const double b = std::min(to, std::floor(a) + 1);
+        sum += (b - a) * at(samples, (a + b) / 2);
+        a = b;
+    }
+    return sum / (to - from);
 }
 
 /// What the bands say of a spectrum if the plan takes them for what they are.
@@ -51,9 +44,9 @@ std::vector<double> bands_of(const NmSamples& spectrum, const CollapsePlan& plan
 }
 
 /// X, Y and Z of bands with a basis, Y = 1 for the diffuser (of radiance: for flat 1).
-class Collapse {
+class SpreadWeights {
   public:
-    Collapse(Basis basis, const CollapsePlan& plan) {
+    SpreadWeights(Basis basis, const CollapsePlan& plan) {
         NmSamples light;
         light.fill(1);
         if (plan.illuminant)
@@ -73,11 +66,14 @@ class Collapse {
     /// False where the bands' responses allow no such basis.
     [[nodiscard]] bool possible() const { return !m_weights[0].empty(); }
 
-    [[nodiscard]] Vector3 xyz(const std::vector<double>& bands) const {
-        Vector3 out{};
-        for (std::size_t c = 0; c < out.size(); ++c)
-            for (std::size_t band = 0; band < bands.size(); ++band)
-                out[c] += m_weights[c][band] * bands[band];
+    [[nodiscard]] std::vector<Vector3> colours(const std::vector<std::vector<double>>& pixels) const {
+        std::vector<Vector3> out;
+        for (const std::vector<double>& bands : pixels) {
+            Vector3 xyz{};
+            for (std::size_t c = 0; c < xyz.size(); ++c)
+                xyz[c] = std::inner_product(bands.begin(), bands.end(), m_weights[c].begin(), 0.0);
+            out.push_back(xyz);
+        }
         return out;
     }
 
@@ -91,30 +87,23 @@ std::vector<BasisSpread> basis_spread(const CollapsePlan& plan) {
     std::vector<BasisSpread> out;
     if (plan.observer.kind != ObserverKind::Colorimetric || !(plan.white[0] > 0 && plan.white[2] > 0))
         return out;
-    std::vector<std::vector<double>> seen;
-    for (NmSamples& patch : patches()) {
+    std::vector<std::vector<double>> pixels;
+    const auto set = find_reflectance_set("colorchecker");
+    for (NmSamples spectrum : set->spectra) {
         if (!plan.illuminant) {
             const NmSamples daylight = find_illuminant("D65")->power;
-            for (std::size_t i = 0; i < patch.size(); ++i)
-                patch[i] *= daylight[i] / at(daylight, 560);
+            for (std::size_t i = 0; i < spectrum.size(); ++i)
+                spectrum[i] *= daylight[i] / at(daylight, 560);
         }
-        seen.push_back(bands_of(patch, plan));
+        pixels.push_back(bands_of(spectrum, plan));
     }
-    const Collapse own(plan.basis.basis, plan);
+    const auto own = SpreadWeights(plan.basis.basis, plan).colours(pixels);
     for (const BasisInfo& info : bases()) {
         if (info.basis == plan.basis.basis || !basis_fits(info.basis, plan.distinct.grid))
             continue;
-        const Collapse other(info.basis, plan);
-        if (!other.possible())
-            continue;
-        BasisSpread spread{info.basis, 0, 0};
-        for (const std::vector<double>& bands : seen) {
-            const double delta =
-                delta_e_2000(lab_of(own.xyz(bands), plan.white), lab_of(other.xyz(bands), plan.white));
-            spread.mean += delta / static_cast<double>(seen.size());
-            spread.max = std::max(spread.max, delta);
-        }
-        out.push_back(spread);
+        const SpreadWeights other(info.basis, plan);
+        if (other.possible())
+            out.push_back({info.basis, differences_of(other.colours(pixels), own, plan.white)});
     }
     return out;
 }

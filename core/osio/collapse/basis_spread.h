@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osio/collapse/plan.h>
+#include <osio/colour/difference.h>
 
 #include <vector>
 
@@ -10,8 +11,7 @@ namespace osio {
 /// How far another basis would be from the one of a plan.
 struct BasisSpread {
     Basis basis = Basis::Linear;
-    double mean = 0;  ///< CIEDE2000 over the patches
-    double max = 0;
+    DifferenceSummary residual;  ///< CIEDE2000 over the patches
 };
 
 /// The spread between the bases that a plan's bands can have, over the 24 patches of the ColorChecker

@@ -17,13 +17,6 @@ namespace {
 /// Below this share of a light's power seen by an observer (an ultraviolet lamp, say) 1 / sum is noise.
 constexpr double kSmallestSeenShare = 1e-9;
 
-Result<Illuminant> load_illuminant(const std::string& name, const TextLoader& load_text) {
-    if (!is_table_path(name))
-        return find_illuminant(name);
-    OSIO_TRY(const std::string csv, load_text(name));
-    return illuminant_from_csv(csv, name);
-}
-
 Result<Vector3> parse_white(const std::string& text, const Observer& observer, Quadrature quadrature,
                             const TextLoader& load_text) {
     const auto pieces = split(text, ',');

@@ -4,6 +4,7 @@
 #include <osio/base/result.h>
 #include <osio/collapse/basis_choice.h>
 #include <osio/collapse/request.h>
+#include <osio/collapse/text_loader.h>
 #include <osio/collapse/weights.h>
 #include <osio/colour/display.h>
 #include <osio/colour/filter.h>
@@ -12,17 +13,11 @@
 #include <osio/layout/channel_layout.h>
 #include <osio/layout/spectral_metadata.h>
 
-#include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace osio {
-
-/// Gives the text of a file that a request names (a light of the user's). The plan opens no file
-/// itself.
-using TextLoader = std::function<Result<std::string>(std::string_view path)>;
 
 /// A request made ready for one set of bands: one row of weights for each output, everything folded
 /// in. A plan is built once and never changed; equal requests on equal bands have equal ids.
@@ -59,15 +54,17 @@ struct CollapsePlan {
 /// S (or stand before the radiance) but not k, unless the request normalises them. Scale::Photometric
 /// takes k = 683 lm/W (scotopic: 1700), Scale::Integral k = 1.
 ///
-/// Spaces with a white are adapted to it, by the request's `adaptation`, from the light's computed white without its filters (radiance: from
-/// D65, that is not at all for D65 spaces), or from the request's `white`; a display likewise to its own
-/// white, but from it for radiance, whose very colour it then shows. A camera's channels are each divided by their sum over the light, so that the perfect diffuser
+/// Spaces with a white are adapted to it, by the request's `adaptation`, from the light's computed white
+/// without its filters (radiance: from D65, that is not at all for D65 spaces), or from the request's
+/// `white`; a display likewise to its own white, but from it for radiance, whose very colour it then
+/// shows. A camera's channels are each divided by their sum over the light, so that the perfect diffuser
 /// is (1, 1, 1), unless the scale is Integral. xyz, luminance and camera are not adapted; Lab, Luv and
 /// chromaticities refer to that same white, unadapted, and their weights are those of X, Y, Z.
 ///
 /// Refuses, before a pixel is read: a reflectance without an illuminant, a radiance with one, bands
-/// wholly outside 360-830 nm, one band with extrapolation zero (a curve of no width) unless its bin's edges
-/// are stated, a light without power between the bands, a basis that the bands cannot have, words that contradict one another. What is only doubtful becomes a warning.
+/// wholly outside 360-830 nm, one band with extrapolation zero (a curve of no width) unless its bin's
+/// edges are stated, a light without power between the bands, a basis that the bands cannot have, words
+/// that contradict one another. What is only doubtful becomes a warning.
 [[nodiscard]] Result<CollapsePlan> make_plan(const SpectralSet& set, const SpectralMetadata& metadata,
                                              const CollapseRequest& request, const TextLoader& load_text);
 

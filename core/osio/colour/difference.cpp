@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <osio/colour/difference.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -62,6 +63,17 @@ double delta_e_2000(const Lab& a, const Lab& b) {
     const double dl = lightness / s_l, dc = chroma / s_c, dh = hue / s_h;
     const double squared = dl * dl + dc * dc + dh * dh + rotation * dc * dh;
     return squared < 0 ? 0 : std::sqrt(squared);  // NaN stays NaN
+}
+
+DifferenceSummary differences_of(std::span<const Vector3> found, std::span<const Vector3> wanted,
+                                 const Vector3& white) {
+    DifferenceSummary out;
+    for (std::size_t i = 0; i < found.size(); ++i) {
+        const double delta = delta_e_2000(lab_of(found[i], white), lab_of(wanted[i], white));
+        out.mean += delta / static_cast<double>(found.size());
+        out.max = std::max(out.max, delta);
+    }
+    return out;
 }
 
 }  // namespace osio

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <osio/colour/cie_lab.h>
-#include <osio/colour/difference.h>
 #include <osio/colour/matrix_fit.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace osio {
@@ -64,17 +61,6 @@ Result<Matrix3> fit_matrix_keeping(const std::pair<Vector3, Vector3>& kept, std:
     for (std::size_t r = 0; r < 3; ++r)
         for (std::size_t c = 0; c < 3; ++c)
             out.rows[r][c] += (t[r] - reached[r]) * direction[c] / length;
-    return out;
-}
-
-FitResidual residual_of(std::span<const Vector3> fitted, std::span<const Vector3> wanted,
-                        const Vector3& white) {
-    FitResidual out;
-    for (std::size_t i = 0; i < fitted.size(); ++i) {
-        const double delta = delta_e_2000(lab_of(fitted[i], white), lab_of(wanted[i], white));
-        out.mean += delta / static_cast<double>(fitted.size());
-        out.max = std::max(out.max, delta);
-    }
     return out;
 }
 

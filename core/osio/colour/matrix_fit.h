@@ -17,14 +17,4 @@ namespace osio {
 [[nodiscard]] Result<Matrix3> fit_matrix_keeping(const std::pair<Vector3, Vector3>& kept,
                                                  std::span<const Vector3> from, std::span<const Vector3> to);
 
-/// CIEDE2000 between colours, each pair under one white (XYZ).
-struct FitResidual {
-    double mean = 0;
-    double max = 0;
-};
-
-/// What is left between `fitted` and `wanted`, pairs of XYZ seen under `white`. For equal counts above 0.
-[[nodiscard]] FitResidual residual_of(std::span<const Vector3> fitted, std::span<const Vector3> wanted,
-                                      const Vector3& white);
-
 }  // namespace osio
