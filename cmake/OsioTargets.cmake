@@ -24,6 +24,17 @@ set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 find_package(Threads REQUIRED)
 
+# osio_module(NAME FILE SOURCES ... LINK ...): a shared object that a program of ours opens when it is
+# needed; it is called FILE.
+function(osio_module name file)
+  cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
+  add_library(${name} MODULE ${arg_SOURCES})
+  set_target_properties(${name} PROPERTIES PREFIX "" SUFFIX "" OUTPUT_NAME ${file}
+    LIBRARY_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/${OSIO_LIB_DIR})
+  target_link_libraries(${name} PRIVATE osio_flags ${arg_LINK})
+  install(TARGETS ${name} LIBRARY DESTINATION ${OSIO_LIB_DIR})
+endfunction()
+
 # osio_library(NAME SOURCES ... LINK ...): a static library of the product.
 function(osio_library name)
   cmake_parse_arguments(arg "" "" "SOURCES;LINK" ${ARGN})
