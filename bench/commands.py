@@ -38,7 +38,7 @@ def make_image(path, wavelengths, width, height):
     """A noisy picture of smooth spectra, half floats, zip: what a camera or a path tracer leaves."""
     random = np.random.default_rng(1)
     spec = oiio.ImageSpec(width, height, len(wavelengths), oiio.HALF)
-    spec.channelnames = tuple(f"T.{nm:g}nm".replace(".", ",").replace(",", ".", 1) for nm in wavelengths)
+    spec.channelnames = tuple("T." + f"{nm:g}".replace(".", ",") + "nm" for nm in wavelengths)
     spec.attribute("compression", "zip")
     sink = oiio.ImageOutput.create(path)
     assert sink.open(path, spec), sink.geterror()
@@ -138,6 +138,24 @@ def main():
         for name, row in measured.items():
             error = np.abs(pixels_of(out[name]) - expected).max()
             print(f"| {row} | {error:.1e} |")
+
+        print("\n| command | s | ratio | peak MB |")
+        print("|---|---|---|---|")
+        aces, second, view = (os.path.join(folder, f"{name}.exr") for name in ("aces", "second", "view"))
+        collapse = ["osiotool", "collapse", shot]
+        under = ["--illuminant", "D65", "--quiet"]
+        display = ("sRGB - Display", "ACES 1.0 - SDR Video")
+        configs = {
+            "aces": ("`osiotool collapse --to aces2065_1`, without OCIO", [*collapse, aces, "--to", "aces2065_1", *under]),
+            "log": ("`--to ACEScct`, in one pass", [*collapse, second, "--to", "ACEScct", *under]),
+            "second": ("`oiiotool --colorconvert` of the first's output: a second pass",
+                       ["oiiotool", aces, "--colorconvert", "ACES2065-1", "ACEScct", *float_zip, second]),
+            "view": ("`--to` the ACES SDR view, in one pass", [*collapse, view, "--to", "/".join(display), *under]),
+            "shown": ("`oiiotool --ociodisplay` of the first's output: a second pass",
+                      ["oiiotool", aces, "--ociodisplay:from=ACES2065-1", *display, *float_zip, view]),
+        }
+        for row in measure(configs, options.rounds).values():
+            print(f"| {row} |")
 
         print("\n| command | s | ratio | peak MB |")
         print("|---|---|---|---|")

@@ -5,6 +5,8 @@
 //
 //     cmake --build --preset release --target read_bench
 //     build/release/bench/read_bench [--threads 2] [--rounds 7] [--size 1920x1080]
+#include <tools/osiotool/thread_runner.h>
+
 #include <formats/exr/block_readers.h>
 #include <formats/exr/block_source.h>
 #include <formats/exr/collapse_job.h>
@@ -32,41 +34,25 @@
 #include <libdeflate.h>
 #include <random>
 #include <string>
-#include <thread>
+#include <tests/support/must.h>
 
 namespace {
 
 using namespace osio;
+using test::must;
 
 unsigned g_threads = 2;
 int g_rounds = 7;
 int g_width = 1920, g_height = 1080;
 
-class Threads final : public Runner {
-  public:
-    unsigned worker_count() const override { return g_threads; }
-
-    void run(const std::function<void(unsigned)>& body) override {
-        std::vector<std::jthread> threads;
-        for (unsigned worker = 1; worker < g_threads; ++worker)
-            threads.emplace_back([&body, worker] { body(worker); });
-        body(0);
-    }
-};
-
-template <class T>
-T must(Result<T> result) {
-    if (!result) {
-        std::fprintf(stderr, "%s\n", result.error().text().c_str());
-        std::exit(1);
-    }
-    return std::move(*result);
+tool::ThreadRunner threads() {
+    return tool::ThreadRunner(g_threads);
 }
 
 /// Calls `body` with 0, 1, ... count - 1 from all threads.
 void spread(std::size_t count, const std::function<void(unsigned worker, std::size_t index)>& body) {
     std::atomic<std::size_t> next = 0;
-    Threads().run([&](unsigned worker) {
+    threads().run([&](unsigned worker) {
         for (std::size_t i = next++; i < count; i = next++)
             body(worker, i);
     });
@@ -216,43 +202,37 @@ class NoSink final : public RowSink {
     Result<void> write_rows(int, int, std::span<const float* const>) override { return {}; }
 };
 
-exr::CollapseJob job_for(const std::string& path, const std::vector<const char*>& lights) {
-    exr::CollapseJob first;
-    std::vector<WeightMatrix> all;
-    for (const char* light : lights) {
+/// Plans of one file under several whites, which are as much work as several lights.
+std::vector<exr::CollapseJob> jobs_for(const std::string& path, const std::vector<const char*>& whites) {
+    std::vector<exr::CollapseJob> out;
+    for (const char* white : whites) {
         CollapseRequest request;
-        must(set_option(request, "to", "lin_rec709").map([] { return 0; }));
-        must(set_option(request, "white", light).map([] { return 0; }));
-        exr::CollapseJob job =
-            must(exr::open_collapse(path, request, [](std::string_view) -> Result<std::string> {
-                return fail(ErrorCode::Io, "no file is read here");
-            }));
-        all.push_back(job.plan.weights);
-        if (all.size() == 1)
-            first = std::move(job);
+        must(set_option(request, "to", "lin_rec709"));
+        must(set_option(request, "white", white));
+        out.push_back(must(exr::open_collapse(path, request, [](std::string_view) -> Result<std::string> {
+            return fail(ErrorCode::Io, "no file is read here");
+        })));
     }
-    WeightMatrix stacked(3 * all.size(), first.plan.weights.bands());
-    for (std::size_t row = 0; row < stacked.rows(); ++row)
-        for (std::size_t band = 0; band < stacked.bands(); ++band)
-            stacked.at(row, band) = all[row / 3].at(row % 3, band);
-    first.plan.weights = stacked;
-    return first;
+    return out;
 }
 
-void read_and_collapse(const std::string& path, const CollapsePlan& plan) {
+void read_and_collapse(const std::string& path, const std::vector<exr::CollapseJob>& jobs) {
     const auto file = must(exr::ExrFile::open(path));
     const auto source = must(exr::make_block_source(file, 0, every_channel(file->parts()[0])));
     NoSink sink;
-    Threads threads;
-    must(collapse_stream(*source, plan, false, {0, g_height - 1}, sink, threads, {}));
+    std::vector<CollapseTarget> targets;
+    for (const exr::CollapseJob& job : jobs)
+        targets.push_back({job.plan, sink});
+    auto runner = threads();
+    must(collapse_stream(*source, targets, false, {0, g_height - 1}, runner, {}));
 }
 
 void bench_file(const std::string& folder, const char* title, int bands, Imf::PixelType type,
                 Imf::Compression compression, bool lights = false) {
     const std::string path = folder + "/image.exr";
     write_image(path, bands, type, compression);
-    const auto one = job_for(path, {"D65"});
-    const auto four = job_for(path, {"D65", "A", "D50", "E"});
+    const auto one = jobs_for(path, {"D65"});
+    const auto four = jobs_for(path, {"D65", "A", "D50", "E"});
     const bool zip = compression == Imf::ZIP_COMPRESSION || compression == Imf::ZIPS_COMPRESSION;
     const bool dwa = compression == Imf::DWAA_COMPRESSION || compression == Imf::DWAB_COMPRESSION;
     std::vector<char> memory;
@@ -260,7 +240,7 @@ void bench_file(const std::string& folder, const char* title, int bands, Imf::Pi
     if (zip)
         chunks = packed_chunks(path);
     std::vector<Contender> contenders{{"C++ API", [&] { decode_by_cpp_api(path, memory); }},
-                                      {"read + collapse", [&] { read_and_collapse(path, one.plan); }}};
+                                      {"read + collapse", [&] { read_and_collapse(path, one); }}};
     const std::size_t core = contenders.size();
     if (!dwa)
         contenders.push_back({"Core", [&] { decode_by_core(path); }});
@@ -269,7 +249,7 @@ void bench_file(const std::string& folder, const char* title, int bands, Imf::Pi
         contenders.push_back({"inflate", [&] { inflate(chunks); }});
     const std::size_t several = contenders.size();
     if (lights)
-        contenders.push_back({"four lights", [&] { read_and_collapse(path, four.plan); }});
+        contenders.push_back({"four lights", [&] { read_and_collapse(path, four); }});
     const auto ms = medians(contenders);
     const double stock = dwa ? ms[0] : std::min(ms[0], ms[core]);
     std::printf("| %s | %.0f | %.0f | %s | %.0f | **%.2f** |", title,

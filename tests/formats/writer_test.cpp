@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <tools/osiotool/thread_runner.h>
+
 #include <formats/exr/checksum.h>
 #include <formats/exr/exr_file.h>
 #include <formats/exr/exr_writer.h>
@@ -22,7 +24,6 @@
 #include <random>
 #include <sys/resource.h>
 #include <sys/stat.h>
-#include <thread>
 #include <unistd.h>
 
 namespace osio::exr {
@@ -101,18 +102,6 @@ TEST(ExrWriter, AnUnfinishedFileLeavesTheOldOneAndNoLitter) {
     EXPECT_EQ(content(path), "the old file");
 }
 
-/// Runs a body on threads of its own.
-class Threads final : public Runner {
-  public:
-    unsigned worker_count() const override { return 3; }
-
-    void run(const std::function<void(unsigned)>& body) override {
-        std::vector<std::jthread> threads;
-        for (unsigned worker = 0; worker < worker_count(); ++worker)
-            threads.emplace_back([&body, worker] { body(worker); });
-    }
-};
-
 /// Channels of every type, with one name too long for a plain header, over a window that starts
 /// anywhere; `noise` does not compress.
 struct Picture {
@@ -188,7 +177,7 @@ std::string without_checksum(std::string bytes) {
 TEST(ExrWriter, ZipFilesAreThoseOfOpenExr) {
     const TestFolder folder;
     const std::string path = folder.path("a.exr"), other = folder.path("b.exr");
-    Threads threads;
+    tool::ThreadRunner threads(3);
     for (const auto compression : {Imf::ZIP_COMPRESSION, Imf::ZIPS_COMPRESSION})
         for (const bool noise : {false, true}) {
             Picture picture(compression, noise);

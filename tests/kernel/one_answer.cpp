@@ -6,6 +6,8 @@
 //     one_answer        lines of FILE TARGET THREADS HASH, then: answer HASH
 //
 // Fails where two differ. scripts/one_answer.sh compares the answers of two compilers.
+#include <tools/osiotool/thread_runner.h>
+
 #include <formats/exr/collapse_job.h>
 #include <formats/exr/exr_writer.h>
 
@@ -21,42 +23,17 @@
 #include <cstdlib>
 #include <filesystem>
 #include <random>
-#include <set>
 #include <string>
-#include <thread>
+#include <tests/support/must.h>
 #include <unistd.h>
 #include <vector>
 
 namespace {
 
 using namespace osio;
+using test::must;
 
 constexpr int kWidth = 97, kHeight = 61, kBands = 31;
-
-class Workers final : public Runner {
-  public:
-    explicit Workers(unsigned count) : m_count(count) {}
-
-    [[nodiscard]] unsigned worker_count() const override { return m_count; }
-
-    void run(const std::function<void(unsigned worker)>& body) override {
-        std::vector<std::jthread> threads;
-        for (unsigned worker = 0; worker < m_count; ++worker)
-            threads.emplace_back([&body, worker] { body(worker); });
-    }
-
-  private:
-    unsigned m_count;
-};
-
-template <class T>
-T must(Result<T> result) {
-    if (!result) {
-        std::fprintf(stderr, "%s\n", result.error().text().c_str());
-        std::exit(1);
-    }
-    return std::move(*result);
-}
 
 /// Samples of all bands, as their file will hold them.
 struct Picture {
@@ -88,8 +65,8 @@ struct Picture {
         Imf::Header header(kWidth, kHeight);
         header.compression() = compression;
         const auto writer = must(exr::ExrWriter::create(path, header, channels));
-        must(writer->write_rows(kHeight, rows).map([] { return 0; }));
-        must(writer->finish().map([] { return 0; }));
+        must(writer->write_rows(kHeight, rows));
+        must(writer->finish());
     }
 
     SampleType type;
@@ -116,7 +93,7 @@ class HashSink final : public RowSink {
 
 exr::CollapseJob job_for(const std::string& path) {
     CollapseRequest request;
-    must(set_option(request, "to", "lin_rec709").map([] { return 0; }));
+    must(set_option(request, "to", "lin_rec709"));
     return must(exr::open_collapse(path, request, [](std::string_view name) -> Result<std::string> {
         return fail(ErrorCode::Io, std::string(name));
     }));
@@ -125,7 +102,7 @@ exr::CollapseJob job_for(const std::string& path) {
 std::string streamed(const exr::CollapseJob& job, unsigned threads) {
     const auto source = must(job.open_source());
     HashSink sink;
-    Workers workers(threads);
+    tool::ThreadRunner workers(threads);
     must(collapse_stream(*source, job.plan, false, {0, kHeight - 1}, sink, workers, {}));
     return sink.hex();
 }
