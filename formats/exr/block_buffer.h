@@ -26,6 +26,7 @@ class BlockBuffer {
     [[nodiscard]] PlanarBlock block(int first_row, int row_count) const;
 
   private:
+    int m_width;
     std::vector<std::byte> m_memory;
     std::vector<std::byte*> m_planes;
     std::vector<SampleType> m_types;

@@ -14,8 +14,11 @@ struct BlockJob {
 };
 
 /// ZIP and ZIPS without sub-sampled channels: chunks raw from OpenEXRCore, over the file's one context;
-/// inflated by libdeflate, put in order line by line, and copied to the planes while they are hot.
+/// inflated by libdeflate and put in order. Planes of scanlines are shown in the lines that are made.
 [[nodiscard]] Result<std::unique_ptr<BlockReader>> make_zip_reader(const BlockJob& job);
+
+/// Scanlines without compression or sub-sampled channels: planes are shown in the lines that are read.
+[[nodiscard]] Result<std::unique_ptr<BlockReader>> make_stored_reader(const BlockJob& job);
 
 /// Through OpenEXRCore's own stages: chunk by chunk, straight into the planes.
 [[nodiscard]] Result<std::unique_ptr<BlockReader>> make_core_reader(const BlockJob& job);

@@ -5,6 +5,7 @@
 #include <formats/exr/chunk_geometry.h>
 #include <formats/exr/chunk_guard.h>
 #include <formats/exr/limits.h>
+#include <formats/exr/line_reader.h>
 
 #include <OpenEXR/ImfTileDescription.h>
 
@@ -26,19 +27,19 @@ std::size_t padded(std::size_t bytes) {
 using MakeReader = Result<std::unique_ptr<BlockReader>> (*)(const BlockJob&);
 
 /// What decodes a part best: our own stages for the ZIP family, two to three times faster than
-/// OpenEXR 3.1.5's; OpenEXRCore's where it is good. It is 2-4 times slower than the C++ API at PIZ and
+/// OpenEXR 3.1.5's, and for lines that are stored as they are; OpenEXRCore's where it is good. It is 2-4 times slower than the C++ API at PIZ and
 /// has no DWA; B44, rare and lossy, goes with them.
-MakeReader best_reader(const ExrFile& file, const ExrPart& part) {
-    if (file.context() == nullptr)
+MakeReader best_reader(const BlockJob& job) {
+    const ExrPart& part = job.file->parts()[job.part];
+    if (job.file->context() == nullptr)
         return make_imf_reader;
+    const bool in_lines = std::none_of(part.channels.begin(), part.channels.end(),
+                                       [](const ExrChannel& channel) { return channel.subsampled; }) &&
+                          LineReader::bytes_needed(job) <= kMostBlockBytes;
     switch (part.header.compression()) {
     case Imf::ZIPS_COMPRESSION:
-    case Imf::ZIP_COMPRESSION: {
-        const bool subsampled = std::any_of(part.channels.begin(), part.channels.end(),
-                                            [](const ExrChannel& channel) { return channel.subsampled; });
-        return subsampled ? make_core_reader : make_zip_reader;
-    }
-    case Imf::NO_COMPRESSION:
+    case Imf::ZIP_COMPRESSION: return in_lines ? make_zip_reader : make_core_reader;
+    case Imf::NO_COMPRESSION: return in_lines && !part.tiled ? make_stored_reader : make_core_reader;
     case Imf::RLE_COMPRESSION:
     case Imf::PXR24_COMPRESSION: return make_core_reader;
     default: return make_imf_reader;
@@ -64,7 +65,7 @@ class ExrBlockSource final : public BlockSource {
     }
 
     [[nodiscard]] Result<std::unique_ptr<BlockReader>> start_reader() const override {
-        OSIO_TRY(auto reader, best_reader(*m_job.file, m_job.file->parts()[m_job.part])(m_job));
+        OSIO_TRY(auto reader, best_reader(m_job)(m_job));
         return guarded(std::move(reader), m_job);
     }
 
@@ -116,7 +117,7 @@ Result<std::unique_ptr<BlockSource>> make_block_source(std::shared_ptr<const Exr
 }
 
 BlockBuffer::BlockBuffer(const ExrPart& part, const PlaneChannels& planes, const BlockGrid& grid)
-    : m_memory(bytes_needed(part, planes, grid)) {
+    : m_width(grid.window.width()), m_memory(bytes_needed(part, planes, grid)) {
     const std::size_t samples =
         static_cast<std::size_t>(grid.window.width()) * static_cast<std::size_t>(grid.rows_per_block);
     void* at = m_memory.data();
@@ -143,7 +144,7 @@ std::uint64_t BlockBuffer::bytes_needed(const ExrPart& part, const PlaneChannels
 }
 
 PlanarBlock BlockBuffer::block(int first_row, int row_count) const {
-    PlanarBlock out{first_row, row_count, {}};
+    PlanarBlock out{first_row, row_count, m_width, {}};
     for (std::size_t plane = 0; plane < m_planes.size(); ++plane)
         out.planes.push_back(
             {m_planes[plane], m_types[plane], static_cast<std::ptrdiff_t>(sample_bytes(m_types[plane]))});

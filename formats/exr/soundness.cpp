@@ -113,7 +113,7 @@ class BlackRowsReader final : public BlockReader {
         // The widest sample's bytes serve every plane; zero is 0 in each type.
         m_zeros.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(m_source.width()) *
                        sample_bytes(SampleType::Float));
-        PlanarBlock out{rows.first, count, {}};
+        PlanarBlock out{rows.first, count, m_source.width(), {}};
         for (const SampleType type : m_types)
             out.planes.push_back({m_zeros.data(), type, static_cast<std::ptrdiff_t>(sample_bytes(type))});
         return out;

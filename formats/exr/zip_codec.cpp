@@ -47,15 +47,11 @@ Result<void> ZipDecoder::start(std::span<const std::uint8_t> packed, std::size_t
     return {};
 }
 
-std::span<const std::uint8_t> ZipDecoder::next(std::size_t bytes) {
-    if (m_stored != nullptr) {
-        const std::span<const std::uint8_t> line(m_stored, bytes);
-        m_stored += bytes;
-        return line;
-    }
-    m_line.resize(bytes);
-    unzip(m_cursor, m_line);
-    return m_line;
+void ZipDecoder::next(std::span<std::uint8_t> out) {
+    if (m_stored == nullptr)
+        return unzip(m_cursor, out);
+    std::copy_n(m_stored, out.size(), out.begin());
+    m_stored += out.size();
 }
 
 void ZipEncoder::Free::operator()(libdeflate_compressor* compressor) const {

@@ -26,11 +26,11 @@ class ZipDecoder {
 
     /// Takes a chunk that must become `unpacked_bytes`, an even number. As many packed bytes are a
     /// chunk that was stored as it is. Damaged where the stream is broken, fails its checksum, is
-    /// shorter or longer than that, or leaves packed bytes over. `packed` must outlive the lines.
+    /// shorter or longer than that, or leaves packed bytes over. `packed` must outlive next()'s calls.
     [[nodiscard]] Result<void> start(std::span<const std::uint8_t> packed, std::size_t unpacked_bytes);
 
-    /// The next bytes of the chunk; they live until the next call.
-    [[nodiscard]] std::span<const std::uint8_t> next(std::size_t bytes);
+    /// The next bytes of the chunk, an even number.
+    void next(std::span<std::uint8_t> out);
 
   private:
     struct Free {
@@ -39,7 +39,6 @@ class ZipDecoder {
 
     std::unique_ptr<libdeflate_decompressor, Free> m_inflate;
     std::vector<std::uint8_t> m_zipped;
-    std::vector<std::uint8_t> m_line;
     UnzipCursor m_cursor;
     const std::uint8_t* m_stored = nullptr;  ///< the next byte of a chunk stored as it is
 };

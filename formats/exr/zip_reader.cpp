@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/exr/chunk_reader.h>
+#include <formats/exr/line_reader.h>
 #include <formats/exr/zip_codec.h>
 
 #include <cstring>
@@ -10,72 +11,91 @@ namespace osio::exr {
 
 namespace {
 
-/// A channel in a line of a chunk: the file's channels follow each other, each a run of samples.
-struct LineChannel {
-    std::size_t sample_bytes = 0;
-    std::optional<std::size_t> plane;  ///< where it goes; nothing where nobody reads it
-};
-
-std::vector<LineChannel> line_of(const ExrPart& part, const PlaneChannels& planes) {
-    std::vector<LineChannel> out;
-    for (const ExrChannel& channel : part.channels)
-        out.push_back({sample_bytes(channel.type), std::nullopt});
-    for (std::size_t plane = 0; plane < planes.size(); ++plane)
-        if (planes[plane])
-            out[*planes[plane]].plane = plane;
-    return out;
-}
-
-class ZipReader final : public ChunkReader {
+/// Chunks of a part, packed. One for each worker; memory is reused.
+class ZipChunk {
   public:
-    explicit ZipReader(const BlockJob& job)
-        : ChunkReader(job), m_line(line_of(part(), job.planes)), m_pixel_bytes(0) {
-        for (const LineChannel& channel : m_line)
-            m_pixel_bytes += channel.sample_bytes;
-    }
+    explicit ZipChunk(const BlockJob& job) : m_file(*job.file), m_part(static_cast<int>(job.part)) {}
 
-  private:
-    [[nodiscard]] Result<void> decode(const exr_chunk_info_t& chunk, const Place& place) override {
-        const std::uint64_t bytes = m_pixel_bytes * static_cast<std::uint64_t>(place.width) *
-                                    static_cast<std::uint64_t>(place.height);
+    /// Inflates a chunk that must become `bytes`.
+    [[nodiscard]] Result<void> start(const exr_chunk_info_t& chunk, std::size_t bytes) {
         if (chunk.unpacked_size != bytes || chunk.packed_size == 0 || chunk.packed_size > bytes)
             return fail(ErrorCode::Damaged,
                         "a chunk of " + std::to_string(chunk.packed_size) + " packed and " +
                             std::to_string(chunk.unpacked_size) + " unpacked bytes, expected 1 to " +
                             std::to_string(bytes) + " and " + std::to_string(bytes),
-                        path());
+                        m_file.path());
         m_packed.resize(chunk.packed_size);
-        const auto code = exr_read_chunk(context(), part_index(), &chunk, m_packed.data());
+        const auto code = exr_read_chunk(m_file.context(), m_part, &chunk, m_packed.data());
         if (code != EXR_ERR_SUCCESS)
-            return core_failure(code, path());
+            return core_failure(code, m_file.path());
         if (auto started = m_decoder.start(m_packed, bytes); !started)
-            return fail_in(path(), std::move(started).error());
-        for (int row = 0; row < place.height; ++row)
+            return fail_in(m_file.path(), std::move(started).error());
+        return {};
+    }
+
+    /// The next of its bytes, whole samples.
+    void next(std::span<std::uint8_t> out) { m_decoder.next(out); }
+
+  private:
+    const ExrFile& m_file;
+    int m_part;
+    std::vector<std::uint8_t> m_packed;
+    ZipDecoder m_decoder;
+};
+
+class ZipLineReader final : public LineReader {
+  public:
+    explicit ZipLineReader(const BlockJob& job) : LineReader(job), m_chunk(job) {}
+
+  private:
+    [[nodiscard]] Result<void> unpack(const exr_chunk_info_t& chunk, std::span<std::uint8_t> lines) override {
+        OSIO_CHECK_OK(m_chunk.start(chunk, lines.size()));
+        m_chunk.next(lines);
+        return {};
+    }
+
+    ZipChunk m_chunk;
+};
+
+class ZipTileReader final : public ChunkReader {
+  public:
+    explicit ZipTileReader(const BlockJob& job)
+        : ChunkReader(job), m_chunk(job), m_channels(line_channels(part(), job.planes)),
+          m_pixel_bytes(pixel_bytes(m_channels)) {}
+
+  private:
+    [[nodiscard]] Result<void> decode(const exr_chunk_info_t& chunk, const Place& place) override {
+        m_line.resize(m_pixel_bytes * static_cast<std::size_t>(place.width));
+        OSIO_CHECK_OK(m_chunk.start(chunk, m_line.size() * static_cast<std::size_t>(place.height)));
+        for (int row = 0; row < place.height; ++row) {
+            m_chunk.next(m_line);
             copy_line(place, row);
+        }
         return {};
     }
 
     void copy_line(const Place& place, int row) {
-        const auto width = static_cast<std::size_t>(place.width);
-        const std::uint8_t* from = m_decoder.next(m_pixel_bytes * width).data();
-        for (const LineChannel& channel : m_line) {
-            const std::size_t bytes = channel.sample_bytes * width;
+        const std::uint8_t* from = m_line.data();
+        for (const LineChannel& channel : m_channels) {
+            const std::size_t bytes = sample_bytes(channel.type) * static_cast<std::size_t>(place.width);
             if (channel.plane)
-                std::memcpy(target(*channel.plane, channel.sample_bytes, place, row), from, bytes);
+                std::memcpy(target(*channel.plane, sample_bytes(channel.type), place, row), from, bytes);
             from += bytes;
         }
     }
 
-    std::vector<LineChannel> m_line;
+    ZipChunk m_chunk;
+    std::vector<LineChannel> m_channels;
     std::size_t m_pixel_bytes;
-    std::vector<std::uint8_t> m_packed;
-    ZipDecoder m_decoder;
+    std::vector<std::uint8_t> m_line;
 };
 
 }  // namespace
 
 Result<std::unique_ptr<BlockReader>> make_zip_reader(const BlockJob& job) {
-    return std::make_unique<ZipReader>(job);
+    if (job.file->parts()[job.part].tiled)
+        return std::make_unique<ZipTileReader>(job);
+    return std::make_unique<ZipLineReader>(job);
 }
 
 }  // namespace osio::exr

@@ -222,11 +222,10 @@ bool SpectralExrOutput::is_preview(std::size_t channel) const {
 
 bool SpectralExrOutput::drop_stale_preview() {
     const auto pixel_bytes = static_cast<std::ptrdiff_t>(m_spec.pixel_bytes(true));
-    std::vector<BandView> planes;
+    PlanarBlock held{0, m_spec.height, m_spec.width, {}};
     for (std::size_t c = 0; c < m_types.size(); ++c)
-        planes.push_back({m_held.data() + m_offsets[c], m_types[c], pixel_bytes});
-    const auto samples = preview_samples(*m_preview, planes, static_cast<std::size_t>(m_spec.width),
-                                         static_cast<std::size_t>(m_spec.height));
+        held.planes.push_back({m_held.data() + m_offsets[c], m_types[c], pixel_bytes});
+    const auto samples = preview_samples(*m_preview, held);
     if (preview_matches(m_source_samples, samples))
         return false;
     // A host has no place for a warning of a writer that succeeds.

@@ -41,32 +41,29 @@ std::optional<PreviewChannels> PreviewChannels::find(const ChannelLayout& layout
     return std::nullopt;
 }
 
-std::vector<PreviewSample> preview_samples(const PreviewChannels& channels,
-                                           const std::vector<BandView>& planes, std::size_t width,
-                                           std::size_t height) {
+std::vector<PreviewSample> preview_samples(const PreviewChannels& channels, const PlanarBlock& block) {
     const auto plan = xyz_plan(channels.set);
     if (!plan)
         return {};  // bands that no observer sees have no picture
-    std::vector<BandView> bands;
-    for (const Band& band : plan->bands)
-        bands.push_back(planes[band.channel]);
-    const double pixels = static_cast<double>(width) * static_cast<double>(height);
+    const auto width = static_cast<std::size_t>(block.width);
+    const double pixels = static_cast<double>(width) * static_cast<double>(block.row_count);
     const auto step = static_cast<std::size_t>(
         std::ceil(std::sqrt(std::max(1.0, pixels / static_cast<double>(kMostSamples)))));
     std::vector<PreviewSample> out;
-    std::vector<BandView> at(bands.size());
-    for (std::size_t y = 0; y < height; y += step) {
+    std::vector<BandView> at(plan->bands.size());
+    for (std::size_t y = 0; y < static_cast<std::size_t>(block.row_count); y += step) {
+        const int row = block.first_row + static_cast<int>(y);
+        const std::vector<BandView> planes = block.among({row, row}).planes;
         for (std::size_t x = 0; x < width; x += step) {
-            const std::size_t pixel = y * width + x;
             std::array<float, 3> xyz{};
             const std::array<float*, 3> to{&xyz[0], &xyz[1], &xyz[2]};
-            std::transform(bands.begin(), bands.end(), at.begin(),
-                           [pixel](const BandView& band) { return band.advanced(pixel); });
+            std::transform(plan->bands.begin(), plan->bands.end(), at.begin(),
+                           [&](const Band& band) { return planes[band.channel].advanced(x); });
             collapse_run_reference(at, plan->weights, 1, to);
             PreviewSample sample;
             for (std::size_t c = 0; c < 3; ++c) {
                 sample.xyz[c] = static_cast<double>(xyz[c]);
-                sample.rgb[c] = sample_at(planes[channels.rgb[c]], pixel);
+                sample.rgb[c] = sample_at(planes[channels.rgb[c]], x);
             }
             out.push_back(sample);
         }
@@ -100,9 +97,7 @@ std::vector<PreviewSample> preview_samples_of_file(const std::string& path, std:
         const auto rows = (*reader)->read(block);
         if (!rows)
             return {};
-        const auto samples =
-            preview_samples(*channels, rows->planes, static_cast<std::size_t>((*source)->width()),
-                            static_cast<std::size_t>(rows->row_count));
+        const auto samples = preview_samples(*channels, *rows);
         out.insert(out.end(), samples.begin(), samples.end());
     }
     return out;

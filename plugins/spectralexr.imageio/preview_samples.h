@@ -25,11 +25,9 @@ struct PreviewChannels {
     [[nodiscard]] static std::optional<PreviewChannels> find(const ChannelLayout& layout);
 };
 
-/// Samples on a grid over pixels in memory: `planes` by channel, rows of `width` pixels without gaps
-/// between them.
+/// Samples on a grid over pixels in memory; the block's planes are all channels of the file.
 [[nodiscard]] std::vector<PreviewSample> preview_samples(const PreviewChannels& channels,
-                                                         const std::vector<BandView>& planes,
-                                                         std::size_t width, std::size_t height);
+                                                         const PlanarBlock& block);
 
 /// Samples from a few blocks of a file's part; empty where it cannot be read or lacks a preview.
 [[nodiscard]] std::vector<PreviewSample> preview_samples_of_file(const std::string& path, std::size_t part);

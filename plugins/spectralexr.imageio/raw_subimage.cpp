@@ -26,24 +26,28 @@ class Interleaver final : public BlockVisitor {
         : m_rows(rows), m_width(width), m_pixel_bytes(pixel_bytes), m_out(out) {}
 
     void process(const PlanarBlock& block) override {
-        const int first = std::max(m_rows.first, block.first_row);
-        const int last = std::min(m_rows.last, block.first_row + block.row_count - 1);
-        const std::size_t skip = static_cast<std::size_t>(first - block.first_row) * m_width;
-        const std::size_t count = static_cast<std::size_t>(last - first + 1) * m_width;
-        std::byte* out = m_out + static_cast<std::size_t>(first - m_rows.first) * m_width * m_pixel_bytes;
-        for (const BandView& plane : block.planes) {
-            const std::byte* from = plane.advanced(skip).data;
-            if (plane.type == SampleType::Half)
-                interleave<std::uint16_t>(from, count, out, m_pixel_bytes);
-            else
-                interleave<std::uint32_t>(from, count, out, m_pixel_bytes);
-            out += sample_bytes(plane.type);
-        }
+        const PlanarBlock wanted = block.among(m_rows);
+        std::byte* const out =
+            m_out + static_cast<std::size_t>(wanted.first_row - m_rows.first) * m_width * m_pixel_bytes;
+        wanted.for_each_run(
+            [this, out](std::size_t first, std::size_t count, std::span<const BandView> planes) {
+                interleave_run(planes, count, out + first * m_pixel_bytes);
+            });
     }
 
     [[nodiscard]] Result<void> deliver(const PlanarBlock&) override { return {}; }
 
   private:
+    void interleave_run(std::span<const BandView> planes, std::size_t count, std::byte* out) const {
+        for (const BandView& plane : planes) {
+            if (plane.type == SampleType::Half)
+                interleave<std::uint16_t>(plane.data, count, out, m_pixel_bytes);
+            else
+                interleave<std::uint32_t>(plane.data, count, out, m_pixel_bytes);
+            out += sample_bytes(plane.type);
+        }
+    }
+
     RowRange m_rows;
     std::size_t m_width;
     std::size_t m_pixel_bytes;

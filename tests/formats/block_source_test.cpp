@@ -49,14 +49,19 @@ void expect_same_as_openexr(const std::string& path, std::size_t part, const Pla
                 EXPECT_EQ(block->planes[p].data, nullptr);
                 continue;
             }
-            const std::size_t bytes = sample_bytes(block->planes[p].type);
             const auto width = static_cast<std::size_t>(header.data_window.width());
-            const std::size_t offset =
-                static_cast<std::size_t>(range.first - header.data_window.min_y) * width * bytes;
-            EXPECT_EQ(std::memcmp(block->planes[p].data, expected[p].data() + offset,
-                                  static_cast<std::size_t>(block->row_count) * width * bytes),
-                      0)
-                << "block " << index << " plane " << p;
+            const std::size_t skip = static_cast<std::size_t>(range.first - header.data_window.min_y) * width;
+            std::size_t next = 0;
+            block->for_each_run([&](std::size_t first, std::size_t length, std::span<const BandView> views) {
+                const std::size_t bytes = sample_bytes(views[p].type);
+                EXPECT_EQ(first, next);
+                EXPECT_EQ(
+                    std::memcmp(views[p].data, expected[p].data() + (skip + first) * bytes, length * bytes),
+                    0)
+                    << "block " << index << " plane " << p;
+                next += length;
+            });
+            EXPECT_EQ(next, static_cast<std::size_t>(block->row_count) * width);
         }
     }
     EXPECT_EQ(rows, header.data_window.height());
@@ -196,10 +201,11 @@ TEST(BlockSource, ManyReadersShareOneFile) {
                 for (std::size_t block = 0; block < source->block_count(); ++block) {
                     const auto read = reader->read(block);
                     ASSERT_TRUE(read);
-                    const std::size_t offset = static_cast<std::size_t>(read->first_row) * 64 * 2;
-                    EXPECT_EQ(std::memcmp(read->planes[0].data, expected.data() + offset,
-                                          static_cast<std::size_t>(read->row_count) * 64 * 2),
-                              0);
+                    const std::size_t skip = static_cast<std::size_t>(read->first_row) * 64;
+                    read->for_each_run([&](std::size_t first, std::size_t length, auto views) {
+                        EXPECT_EQ(
+                            std::memcmp(views[0].data, expected.data() + (skip + first) * 2, length * 2), 0);
+                    });
                 }
             });
     }

@@ -92,7 +92,7 @@ class MemoryReader final : public BlockReader {
         if (block >= m_source.bad_block)
             return fail(ErrorCode::Damaged, "bad block " + std::to_string(block));
         const RowRange rows = m_source.rows_of_block(block);
-        PlanarBlock out{rows.first, rows.last - rows.first + 1, {}};
+        PlanarBlock out{rows.first, rows.last - rows.first + 1, m_source.m_width, {}};
         for (const auto& plane : m_source.m_data)
             out.planes.push_back({reinterpret_cast<const std::byte*>(
                                       plane.data() + (rows.first - MemorySource::kTop) * m_source.m_width),

@@ -110,12 +110,9 @@ class Collapser final : public BlockVisitor {
             plane.resize(pixels);
             m_pointers.push_back(plane.data());
         }
-        const std::size_t rows = m_shared.weights.rows();
-        const std::span<const BandView> bands(block.planes.data(), m_shared.weights.bands());
-        collapse_run(bands, m_shared.weights, pixels, std::span(m_pointers).first(rows));
-        if (m_shared.has_alpha)
-            for (std::size_t pixel = 0; pixel < pixels; ++pixel)
-                m_planes.back()[pixel] = static_cast<float>(sample_at(block.planes.back(), pixel));
+        block.for_each_run([this](std::size_t first, std::size_t count, std::span<const BandView> planes) {
+            sum(first, count, planes);
+        });
         m_first_row = std::max(m_shared.rows.first, block.first_row);
         m_row_count = std::min(m_shared.rows.last, block.first_row + block.row_count - 1) - m_first_row + 1;
         m_prepared = {};
@@ -137,6 +134,18 @@ class Collapser final : public BlockVisitor {
     }
 
   private:
+    /// The sums of some pixels, and their alpha.
+    void sum(std::size_t first, std::size_t count, std::span<const BandView> planes) {
+        const std::size_t rows = m_shared.weights.rows();
+        m_sums.clear();
+        for (std::size_t row = 0; row < rows; ++row)
+            m_sums.push_back(m_planes[row].data() + first);
+        collapse_run(planes.first(m_shared.weights.bands()), m_shared.weights, count, m_sums);
+        if (m_shared.has_alpha)
+            for (std::size_t pixel = 0; pixel < count; ++pixel)
+                m_planes.back()[first + pixel] = static_cast<float>(sample_at(planes.back(), pixel));
+    }
+
     /// Turns the sums from plane `first` on into what the target's space means, and prepares its rows.
     Result<void> finish(Branch& branch, std::size_t first, const PlanarBlock& block, std::size_t pixels) {
         const std::span<float* const> sums(m_pointers.data() + first, branch.outputs);
@@ -160,6 +169,7 @@ class Collapser final : public BlockVisitor {
     Result<void> m_prepared;
     std::vector<std::vector<float>> m_planes;
     std::vector<float*> m_pointers;
+    std::vector<float*> m_sums;  ///< of the run in work
     std::vector<const float*> m_rows;
     int m_first_row = 0;
     int m_row_count = 0;

@@ -19,25 +19,11 @@ class XyzBlock {
     void make(const PlanarBlock& block) {
         m_first_row = block.first_row;
         const std::size_t pixels = static_cast<std::size_t>(block.row_count) * m_width;
-        std::array<float*, 3> out{};
-        for (std::size_t c = 0; c < 3; ++c) {
-            m_xyz[c].resize(pixels);
-            out[c] = m_xyz[c].data();
-        }
-        if (m_recipe.transfer == Transfer::Linear) {
-            collapse_run(block.planes, m_recipe.weights, pixels, out);
-            return;
-        }
-        m_linear.resize(block.planes.size());
-        std::vector<BandView> planes;
-        for (std::size_t p = 0; p < block.planes.size(); ++p) {
-            m_linear[p].resize(pixels);
-            for (std::size_t i = 0; i < pixels; ++i)
-                m_linear[p][i] = static_cast<float>(srgb_decode(sample_at(block.planes[p], i)));
-            planes.push_back({reinterpret_cast<const std::byte*>(m_linear[p].data()), SampleType::Float,
-                              static_cast<std::ptrdiff_t>(sizeof(float))});
-        }
-        collapse_run(planes, m_recipe.weights, pixels, out);
+        for (std::vector<float>& plane : m_xyz)
+            plane.resize(pixels);
+        block.for_each_run([this](std::size_t first, std::size_t count, std::span<const BandView> planes) {
+            sum(first, count, planes);
+        });
     }
 
     [[nodiscard]] Lab lab_at(int row, std::size_t column) const {
@@ -48,6 +34,23 @@ class XyzBlock {
     }
 
   private:
+    void sum(std::size_t first, std::size_t count, std::span<const BandView> planes) {
+        const std::array<float*, 3> out{m_xyz[0].data() + first, m_xyz[1].data() + first,
+                                        m_xyz[2].data() + first};
+        if (m_recipe.transfer == Transfer::Linear)
+            return collapse_run(planes, m_recipe.weights, count, out);
+        m_linear.resize(planes.size());
+        std::vector<BandView> linear;
+        for (std::size_t p = 0; p < planes.size(); ++p) {
+            m_linear[p].resize(count);
+            for (std::size_t i = 0; i < count; ++i)
+                m_linear[p][i] = static_cast<float>(srgb_decode(sample_at(planes[p], i)));
+            linear.push_back({reinterpret_cast<const std::byte*>(m_linear[p].data()), SampleType::Float,
+                              static_cast<std::ptrdiff_t>(sizeof(float))});
+        }
+        collapse_run(linear, m_recipe.weights, count, out);
+    }
+
     const XyzRecipe& m_recipe;
     std::size_t m_width;
     int m_first_row = 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <osio/collapse/stream.h>
 
+#include <algorithm>
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
@@ -64,6 +65,33 @@ class Turnstile {
 };
 
 }  // namespace
+
+void PlanarBlock::for_each_run(const Run& run) const {
+    const auto row_pixels = static_cast<std::size_t>(width), rows = static_cast<std::size_t>(row_count);
+    if (row_pitch_bytes == 0)
+        return run(0, rows * row_pixels, planes);
+    std::vector<BandView> views = planes;
+    for (std::size_t row = 0; row < rows; ++row) {
+        run(row * row_pixels, row_pixels, views);
+        for (BandView& view : views)
+            if (view.data != nullptr)
+                view.data += row_pitch_bytes;
+    }
+}
+
+PlanarBlock PlanarBlock::among(RowRange rows) const {
+    const int first = std::max(rows.first, first_row);
+    const int last = std::min(rows.last, first_row + row_count - 1);
+    PlanarBlock out{first, last - first + 1, width, planes, row_pitch_bytes};
+    for (BandView& view : out.planes) {
+        if (view.data == nullptr)
+            continue;
+        const std::ptrdiff_t row_bytes =
+            row_pitch_bytes != 0 ? row_pitch_bytes : view.pixel_stride_bytes * width;
+        view.data += (first - first_row) * row_bytes;
+    }
+    return out;
+}
 
 Result<void> visit_blocks(const BlockSource& source, RowRange rows, Runner& runner, const StartVisitor& start,
                           const Progress& progress) {

@@ -7,22 +7,37 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <span>
 #include <vector>
 
 /// Pixels in blocks of whole rows, from a file to a consumer, a few blocks at a time.
 namespace osio {
 
-/// Some rows of some channels, planar: plane p holds rows x width samples, row after row.
-struct PlanarBlock {
-    int first_row = 0;
-    int row_count = 0;
-    std::vector<BandView> planes;
-};
-
 /// A range of rows of the data window, first to last, both inside.
 struct RowRange {
     int first = 0;
     int last = 0;
+};
+
+/// Some rows of some channels, planar: plane p holds row_count x width samples.
+struct PlanarBlock {
+    int first_row = 0;
+    int row_count = 0;
+    int width = 0;
+    std::vector<BandView> planes;  ///< from the first row's first sample on
+    /// Bytes from a row to the next in every plane; 0 where each plane's rows follow each other.
+    std::ptrdiff_t row_pitch_bytes = 0;
+
+    /// Pixels that follow each other in every plane: how many there are from `first_pixel` of the block
+    /// on, and their samples.
+    using Run =
+        std::function<void(std::size_t first_pixel, std::size_t count, std::span<const BandView> planes)>;
+
+    /// Runs that make up the block, from its top.
+    void for_each_run(const Run& run) const;
+
+    /// The rows of the block among `rows`, which has some of them.
+    [[nodiscard]] PlanarBlock among(RowRange rows) const;
 };
 
 /// Decodes blocks for one worker. It is never shared, so it needs no lock.
