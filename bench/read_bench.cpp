@@ -24,6 +24,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bench/core_reader.h>
 #include <chrono>
 #include <cmath>
 #include <cstdio>

@@ -13,15 +13,13 @@ struct BlockJob {
     BlockGrid grid;
 };
 
-/// ZIP and ZIPS without sub-sampled channels: chunks raw from OpenEXRCore, over the file's one context;
-/// inflated by libdeflate and put in order. Planes of scanlines are shown in the lines that are made.
-[[nodiscard]] Result<std::unique_ptr<BlockReader>> make_zip_reader(const BlockJob& job);
+/// Parts in `has_own_codec()`'s compressions without sub-sampled channels: chunks raw from OpenEXRCore,
+/// over the file's one context, unpacked by stages of our own. Planes of scanlines are shown in the lines
+/// that are made, those of tiles are copied from theirs.
+[[nodiscard]] Result<std::unique_ptr<BlockReader>> make_own_reader(const BlockJob& job);
 
-/// Scanlines without compression or sub-sampled channels: planes are shown in the lines that are read.
-[[nodiscard]] Result<std::unique_ptr<BlockReader>> make_stored_reader(const BlockJob& job);
-
-/// Through OpenEXRCore's own stages: chunk by chunk, straight into the planes.
-[[nodiscard]] Result<std::unique_ptr<BlockReader>> make_core_reader(const BlockJob& job);
+/// True where stages of our own can unpack a part.
+[[nodiscard]] bool has_own_codec(const ExrPart& part);
 
 /// Through the C++ API. Each reader opens the file for itself: the API serialises reads of one file.
 [[nodiscard]] Result<std::unique_ptr<BlockReader>> make_imf_reader(const BlockJob& job);

@@ -26,24 +26,15 @@ std::size_t padded(std::size_t bytes) {
 
 using MakeReader = Result<std::unique_ptr<BlockReader>> (*)(const BlockJob&);
 
-/// What decodes a part best: our own stages for the ZIP family, two to three times faster than
-/// OpenEXR 3.1.5's, and for lines that are stored as they are; OpenEXRCore's where it is good. It is 2-4 times slower than the C++ API at PIZ and
-/// has no DWA; B44, rare and lossy, goes with them.
+/// What decodes a part best: stages of our own, faster than OpenEXR 3.1.5's; else the C++ API, which
+/// is 2-4 times faster than its OpenEXRCore at PIZ and has DWA, which that lacks.
 MakeReader best_reader(const BlockJob& job) {
     const ExrPart& part = job.file->parts()[job.part];
-    if (job.file->context() == nullptr)
-        return make_imf_reader;
-    const bool in_lines = std::none_of(part.channels.begin(), part.channels.end(),
-                                       [](const ExrChannel& channel) { return channel.subsampled; }) &&
-                          LineReader::bytes_needed(job) <= kMostBlockBytes;
-    switch (part.header.compression()) {
-    case Imf::ZIPS_COMPRESSION:
-    case Imf::ZIP_COMPRESSION: return in_lines ? make_zip_reader : make_core_reader;
-    case Imf::NO_COMPRESSION: return in_lines && !part.tiled ? make_stored_reader : make_core_reader;
-    case Imf::RLE_COMPRESSION:
-    case Imf::PXR24_COMPRESSION: return make_core_reader;
-    default: return make_imf_reader;
-    }
+    const bool own = job.file->context() != nullptr && has_own_codec(part) &&
+                     std::none_of(part.channels.begin(), part.channels.end(),
+                                  [](const ExrChannel& channel) { return channel.subsampled; }) &&
+                     LineReader::bytes_needed(job) <= kMostBlockBytes;
+    return own ? make_own_reader : make_imf_reader;
 }
 
 class ExrBlockSource final : public BlockSource {

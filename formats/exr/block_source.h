@@ -35,9 +35,8 @@ enum class Grain {
 /// The grid of a part, decided by its compression and tiles.
 [[nodiscard]] BlockGrid block_grid(const ExrPart& part, Grain grain = Grain::Block);
 
-/// Decodes channels of one part into planar blocks: by stages of our own (ZIP, ZIPS, none), through
-/// OpenEXRCore's chunk pipeline (RLE, PXR24), or through the C++ API where 3.1.5's Core is slower
-/// (PIZ), lacks the codec (DWA) or is not trusted (B44).
+/// Decodes channels of one part into planar blocks: by stages of our own, or through the C++ API where
+/// there are none (PIZ, DWA, parts with sub-sampled channels).
 /// Planes are samples as stored. Refuses deep parts, sub-sampled channels among the wanted, and
 /// blocks beyond our limits. The source keeps the file open.
 [[nodiscard]] Result<std::unique_ptr<BlockSource>> make_block_source(std::shared_ptr<const ExrFile> file,

@@ -1,53 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/exr/line_reader.h>
 
-#include <string>
-
 namespace osio::exr {
-
-namespace {
-
-/// Without compression a chunk is its lines.
-class StoredReader final : public LineReader {
-  public:
-    using LineReader::LineReader;
-
-  private:
-    [[nodiscard]] Result<void> unpack(const exr_chunk_info_t& chunk, std::span<std::uint8_t> lines) override {
-        const ExrFile& file = *job().file;
-        if (chunk.packed_size != lines.size())
-            return fail(ErrorCode::Damaged,
-                        "a chunk of " + std::to_string(chunk.packed_size) + " bytes, expected " +
-                            std::to_string(lines.size()),
-                        file.path());
-        const auto code = exr_read_chunk(file.context(), static_cast<int>(job().part), &chunk, lines.data());
-        return code == EXR_ERR_SUCCESS ? Result<void>() : core_failure(code, file.path());
-    }
-};
-
-}  // namespace
-
-std::vector<LineChannel> line_channels(const ExrPart& part, const PlaneChannels& planes) {
-    std::vector<LineChannel> out;
-    for (const ExrChannel& channel : part.channels)
-        out.push_back({channel.type, std::nullopt});
-    for (std::size_t plane = 0; plane < planes.size(); ++plane)
-        if (planes[plane])
-            out[*planes[plane]].plane = plane;
-    return out;
-}
-
-std::size_t pixel_bytes(const std::vector<LineChannel>& channels) {
-    std::size_t bytes = 0;
-    for (const LineChannel& channel : channels)
-        bytes += sample_bytes(channel.type);
-    return bytes;
-}
 
 LineReader::LineReader(const BlockJob& job)
     : m_job(job), m_channels(line_channels(job.file->parts()[job.part], job.planes)),
       m_line_bytes(pixel_bytes(m_channels) * static_cast<std::size_t>(job.grid.window.width())),
-      m_lines(bytes_needed(job)) {}
+      m_lines(bytes_needed(job)), m_chunk(job) {}
 
 std::uint64_t LineReader::bytes_needed(const BlockJob& job) {
     const auto pixels = static_cast<std::uint64_t>(job.grid.window.width()) *
@@ -86,12 +45,9 @@ Result<int> LineReader::read_chunk(int row, int line, int most_rows) {
         return fail(ErrorCode::Damaged, "a chunk has another size than the header gives it", path);
     const std::span<std::uint8_t> lines = std::span(m_lines).subspan(
         static_cast<std::size_t>(line) * m_line_bytes, static_cast<std::size_t>(chunk.height) * m_line_bytes);
-    OSIO_CHECK_OK(unpack(chunk, lines));
+    const ChunkShape shape{static_cast<std::size_t>(chunk.width), static_cast<std::size_t>(chunk.height)};
+    OSIO_CHECK_OK(m_chunk.unpack(chunk, shape, lines));
     return chunk.height;
-}
-
-Result<std::unique_ptr<BlockReader>> make_stored_reader(const BlockJob& job) {
-    return std::make_unique<StoredReader>(job);
 }
 
 }  // namespace osio::exr

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <formats/exr/zip_bytes.h>
 #include <formats/exr/zip_codec.h>
 
 #include <algorithm>
@@ -8,32 +9,24 @@
 
 namespace osio::exr {
 
-void ZipDecoder::Free::operator()(libdeflate_decompressor* decompressor) const {
+void Inflater::Free::operator()(libdeflate_decompressor* decompressor) const {
     libdeflate_free_decompressor(decompressor);
 }
 
-ZipDecoder::ZipDecoder() : m_inflate(libdeflate_alloc_decompressor()) {
+Inflater::Inflater() : m_inflate(libdeflate_alloc_decompressor()) {
     if (m_inflate == nullptr)
         throw std::bad_alloc();
 }
 
-ZipDecoder::~ZipDecoder() = default;
+Inflater::~Inflater() = default;
 
-Result<void> ZipDecoder::start(std::span<const std::uint8_t> packed, std::size_t unpacked_bytes) {
-    m_stored = nullptr;
-    if (packed.size() == unpacked_bytes) {
-        m_stored = packed.data();
-        return {};
-    }
-    if (packed.size() > unpacked_bytes)
-        return fail(ErrorCode::Damaged, "a chunk of " + std::to_string(packed.size()) +
-                                            " packed bytes, expected at most " +
-                                            std::to_string(unpacked_bytes));
-    m_zipped.resize(unpacked_bytes);
+Result<std::span<const std::uint8_t>> Inflater::inflate(std::span<const std::uint8_t> packed,
+                                                        std::size_t unpacked_bytes) {
+    m_bytes.resize(unpacked_bytes);
     std::size_t used = 0;
     // Without a place for the size libdeflate demands that the output is filled exactly.
     const auto outcome = libdeflate_zlib_decompress_ex(m_inflate.get(), packed.data(), packed.size(),
-                                                       m_zipped.data(), unpacked_bytes, &used, nullptr);
+                                                       m_bytes.data(), unpacked_bytes, &used, nullptr);
     if (outcome == LIBDEFLATE_SHORT_OUTPUT || outcome == LIBDEFLATE_INSUFFICIENT_SPACE)
         return fail(ErrorCode::Damaged, std::string("a chunk unpacks to ") +
                                             (outcome == LIBDEFLATE_SHORT_OUTPUT ? "fewer" : "more") +
@@ -43,15 +36,7 @@ Result<void> ZipDecoder::start(std::span<const std::uint8_t> packed, std::size_t
     if (used != packed.size())
         return fail(ErrorCode::Damaged, "a chunk ends " + std::to_string(packed.size() - used) +
                                             " bytes before its packed size says");
-    m_cursor = start_unzip(m_zipped);
-    return {};
-}
-
-void ZipDecoder::next(std::span<std::uint8_t> out) {
-    if (m_stored == nullptr)
-        return unzip(m_cursor, out);
-    std::copy_n(m_stored, out.size(), out.begin());
-    m_stored += out.size();
+    return m_bytes;
 }
 
 void ZipEncoder::Free::operator()(libdeflate_compressor* compressor) const {

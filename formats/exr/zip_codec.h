@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <formats/exr/zip_bytes.h>
-
 #include <osio/base/result.h>
 
 #include <cstddef>
@@ -16,21 +14,18 @@ struct libdeflate_decompressor;
 
 namespace osio::exr {
 
-/// Chunks of ZIP and ZIPS to samples, by libdeflate. One for each worker; memory is reused.
-class ZipDecoder {
+/// zlib streams to bytes, by libdeflate. One for each worker; memory is reused.
+class Inflater {
   public:
-    ZipDecoder();
-    ~ZipDecoder();
-    ZipDecoder(const ZipDecoder&) = delete;
-    ZipDecoder& operator=(const ZipDecoder&) = delete;
+    Inflater();
+    ~Inflater();
+    Inflater(const Inflater&) = delete;
+    Inflater& operator=(const Inflater&) = delete;
 
-    /// Takes a chunk that must become `unpacked_bytes`, an even number. As many packed bytes are a
-    /// chunk that was stored as it is. Damaged where the stream is broken, fails its checksum, is
-    /// shorter or longer than that, or leaves packed bytes over. `packed` must outlive next()'s calls.
-    [[nodiscard]] Result<void> start(std::span<const std::uint8_t> packed, std::size_t unpacked_bytes);
-
-    /// The next bytes of the chunk, an even number.
-    void next(std::span<std::uint8_t> out);
+    /// The `unpacked_bytes` that a stream must become; they live until the next call. Damaged where it is
+    /// broken, fails its checksum, is shorter or longer than that, or leaves packed bytes over.
+    [[nodiscard]] Result<std::span<const std::uint8_t>> inflate(std::span<const std::uint8_t> packed,
+                                                                std::size_t unpacked_bytes);
 
   private:
     struct Free {
@@ -38,9 +33,7 @@ class ZipDecoder {
     };
 
     std::unique_ptr<libdeflate_decompressor, Free> m_inflate;
-    std::vector<std::uint8_t> m_zipped;
-    UnzipCursor m_cursor;
-    const std::uint8_t* m_stored = nullptr;  ///< the next byte of a chunk stored as it is
+    std::vector<std::uint8_t> m_bytes;
 };
 
 /// Samples to chunks of ZIP and ZIPS. One for each worker; memory is reused.

@@ -42,8 +42,8 @@ Imf::Header header_of(const TestPart& part, bool several) {
     header.compression() = part.compression;
     header.lineOrder() = part.line_order;
     for (const TestChannel& channel : part.channels)
-        header.channels().insert(channel.name,
-                                 Imf::Channel(channel.type, channel.sampling, channel.sampling));
+        header.channels().insert(
+            channel.name, Imf::Channel(channel.type, channel.sampling, channel.sampling, channel.perceptual));
     if (part.tiles)
         header.setTileDescription(Imf::TileDescription(static_cast<unsigned>(part.tiles->x),
                                                        static_cast<unsigned>(part.tiles->y),

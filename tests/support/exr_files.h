@@ -21,6 +21,7 @@ struct TestChannel {
     std::string name;
     Imf::PixelType type = Imf::FLOAT;
     int sampling = 1;
+    bool perceptual = false;  ///< B44 keeps the logarithm of such a channel
 };
 
 /// What a sample is, by channel index and pixel of the data window.

@@ -3,6 +3,7 @@
 
 #include <OpenEXR/openexr_decode.h>
 
+#include <bench/core_reader.h>
 #include <functional>
 #include <map>
 #include <string>
