@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Decoding and collapse against OpenEXR's own decoders, libdeflate alone and the memory's bandwidth, side
-// by side: every line's contenders run once in each round.
+// Decoding and collapse against OpenEXR's own decoders and libdeflate alone.
 //
 //     cmake --build --preset release --target read_bench
 //     build/release/bench/read_bench [--threads 2] [--rounds 7] [--size 1920x1080]
-#include <tools/osiotool/thread_runner.h>
-
 #include <formats/exr/block_readers.h>
 #include <formats/exr/block_source.h>
 #include <formats/exr/collapse_job.h>
 
 #include <osio/collapse/collapse_stream.h>
-#include <osio/collapse/kernel.h>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
@@ -24,8 +20,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bench/contest.h>
 #include <bench/core_reader.h>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -40,52 +36,16 @@
 namespace {
 
 using namespace osio;
+using namespace osio::bench;
 using test::must;
-
-unsigned g_threads = 2;
-int g_rounds = 7;
-int g_width = 1920, g_height = 1080;
-
-tool::ThreadRunner threads() {
-    return tool::ThreadRunner(g_threads);
-}
-
-/// Calls `body` with 0, 1, ... count - 1 from all threads.
-void spread(std::size_t count, const std::function<void(unsigned worker, std::size_t index)>& body) {
-    std::atomic<std::size_t> next = 0;
-    threads().run([&](unsigned worker) {
-        for (std::size_t i = next++; i < count; i = next++)
-            body(worker, i);
-    });
-}
-
-using Contender = std::pair<std::string, std::function<void()>>;
-
-/// Medians in ms, one for each contender; every contender once in each round, after one to warm up.
-std::vector<double> medians(const std::vector<Contender>& contenders) {
-    std::vector<std::vector<double>> times(contenders.size());
-    for (int round = -1; round < g_rounds; ++round)
-        for (std::size_t i = 0; i < contenders.size(); ++i) {
-            const auto start = std::chrono::steady_clock::now();
-            contenders[i].second();
-            const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-            if (round >= 0)
-                times[i].push_back(taken.count());
-        }
-    std::vector<double> out;
-    for (auto& series : times) {
-        std::nth_element(series.begin(), series.begin() + g_rounds / 2, series.end());
-        out.push_back(series[static_cast<std::size_t>(g_rounds / 2)]);
-    }
-    return out;
-}
 
 /// Smooth spectra with 2 % of noise: what a camera or a path tracer leaves.
 void write_image(const std::string& path, int bands, Imf::PixelType type, Imf::Compression compression) {
-    Imf::Header header(g_width, g_height);
+    Imf::Header header(contest().width, contest().height);
     header.compression() = compression;
     Imf::FrameBuffer buffer;
-    const std::size_t pixels = static_cast<std::size_t>(g_width) * static_cast<std::size_t>(g_height);
+    const std::size_t pixels =
+        static_cast<std::size_t>(contest().width) * static_cast<std::size_t>(contest().height);
     std::vector<std::vector<float>> floats(static_cast<std::size_t>(bands), std::vector<float>(pixels));
     std::vector<std::vector<Imath::half>> halves(static_cast<std::size_t>(bands));
     std::minstd_rand random(1);
@@ -96,10 +56,10 @@ void write_image(const std::string& path, int bands, Imf::PixelType type, Imf::C
         const float u = static_cast<float>(b) / static_cast<float>(bands);
         auto& plane = floats[static_cast<std::size_t>(b)];
         for (std::size_t i = 0; i < pixels; ++i) {
-            const float x =
-                static_cast<float>(i % static_cast<std::size_t>(g_width)) / static_cast<float>(g_width);
-            const float y =
-                static_cast<float>(i / static_cast<std::size_t>(g_width)) / static_cast<float>(g_height);
+            const float x = static_cast<float>(i % static_cast<std::size_t>(contest().width)) /
+                            static_cast<float>(contest().width);
+            const float y = static_cast<float>(i / static_cast<std::size_t>(contest().width)) /
+                            static_cast<float>(contest().height);
             plane[i] =
                 (0.45F + 0.3F * std::sin(6 * (u + x)) * std::cos(5 * (y - u))) * noise[random() % 65536];
         }
@@ -117,7 +77,7 @@ void write_image(const std::string& path, int bands, Imf::PixelType type, Imf::C
     }
     Imf::OutputFile file(path.c_str(), header, Imf::globalThreadCount());
     file.setFrameBuffer(buffer);
-    file.writePixels(g_height);
+    file.writePixels(contest().height);
 }
 
 exr::PlaneChannels every_channel(const exr::ExrPart& part) {
@@ -130,9 +90,9 @@ exr::PlaneChannels every_channel(const exr::ExrPart& part) {
 /// OpenEXR's C++ API with its own threads, 128 lines at a time into one block.
 void decode_by_cpp_api(const std::string& path, std::vector<char>& memory) {
     constexpr int kLines = 128;
-    Imf::InputFile file(path.c_str(), static_cast<int>(g_threads));
-    const std::size_t plane_bytes = static_cast<std::size_t>(g_width) * kLines * 4;
-    for (int first = 0; first < g_height; first += kLines) {
+    Imf::InputFile file(path.c_str(), static_cast<int>(contest().threads));
+    const std::size_t plane_bytes = static_cast<std::size_t>(contest().width) * kLines * 4;
+    for (int first = 0; first < contest().height; first += kLines) {
         Imf::FrameBuffer buffer;
         std::size_t at = 0;
         for (auto c = file.header().channels().begin(); c != file.header().channels().end(); ++c) {
@@ -142,11 +102,11 @@ void decode_by_cpp_api(const std::string& path, std::vector<char>& memory) {
         at = 0;
         for (auto c = file.header().channels().begin(); c != file.header().channels().end(); ++c) {
             buffer.insert(c.name(), Imf::Slice::Make(c.channel().type, memory.data() + at,
-                                                     Imath::V2i(0, first), g_width, kLines));
+                                                     Imath::V2i(0, first), contest().width, kLines));
             at += plane_bytes;
         }
         file.setFrameBuffer(buffer);
-        file.readPixels(first, std::min(first + kLines, g_height) - 1);
+        file.readPixels(first, std::min(first + kLines, contest().height) - 1);
     }
 }
 
@@ -155,7 +115,7 @@ void decode_by_core(const std::string& path) {
     const auto file = must(exr::ExrFile::open(path));
     const exr::ExrPart& part = file->parts()[0];
     const exr::BlockJob job{file, 0, every_channel(part), exr::block_grid(part)};
-    std::vector<std::unique_ptr<BlockReader>> readers(g_threads);
+    std::vector<std::unique_ptr<BlockReader>> readers(contest().threads);
     spread(job.grid.block_count(), [&](unsigned worker, std::size_t block) {
         auto& reader = readers[worker];
         if (!reader)
@@ -172,7 +132,7 @@ struct PackedChunk {
 std::vector<PackedChunk> packed_chunks(const std::string& path) {
     const auto file = must(exr::ExrFile::open(path));
     std::vector<PackedChunk> out;
-    for (int y = 0; y < g_height;) {
+    for (int y = 0; y < contest().height;) {
         exr_chunk_info_t info{};
         exr_read_scanline_chunk_info(file->context(), 0, y, &info);
         PackedChunk chunk{std::vector<std::uint8_t>(info.packed_size), info.unpacked_size};
@@ -184,8 +144,8 @@ std::vector<PackedChunk> packed_chunks(const std::string& path) {
 }
 
 void inflate(const std::vector<PackedChunk>& chunks) {
-    std::vector<libdeflate_decompressor*> decompressors(g_threads);
-    std::vector<std::vector<std::uint8_t>> memory(g_threads);
+    std::vector<libdeflate_decompressor*> decompressors(contest().threads);
+    std::vector<std::vector<std::uint8_t>> memory(contest().threads);
     spread(chunks.size(), [&](unsigned worker, std::size_t i) {
         if (decompressors[worker] == nullptr)
             decompressors[worker] = libdeflate_alloc_decompressor();
@@ -225,7 +185,7 @@ void read_and_collapse(const std::string& path, const std::vector<exr::CollapseJ
     for (const exr::CollapseJob& job : jobs)
         targets.push_back({job.plan, sink});
     auto runner = threads();
-    must(collapse_stream(*source, targets, false, {0, g_height - 1}, runner, {}));
+    must(collapse_stream(*source, targets, false, {0, contest().height - 1}, runner, {}));
 }
 
 void bench_file(const std::string& folder, const char* title, int bands, Imf::PixelType type,
@@ -268,86 +228,15 @@ void bench_file(const std::string& folder, const char* title, int bands, Imf::Pi
     std::fflush(stdout);
 }
 
-/// Reads every byte, as fast as a loop of loads can.
-__attribute__((target_clones("avx512f", "avx2", "default"))) std::uint64_t read_all(const std::uint64_t* data,
-                                                                                    std::size_t count) {
-    std::uint64_t sum = 0;
-    for (std::size_t i = 0; i < count; ++i)
-        sum ^= data[i];
-    return sum;
-}
-
-/// Planar data of 31 bands that no cache holds, in EXR's order of lines.
-void bench_memory(SampleType type) {
-    constexpr std::size_t kBands = 31;
-    const auto width = static_cast<std::size_t>(g_width), height = static_cast<std::size_t>(g_height);
-    const std::size_t run_bytes = width * sample_bytes(type), line_bytes = kBands * run_bytes;
-    const std::size_t frames = type == SampleType::Half ? 2 : 1;
-    std::vector<std::uint64_t> data(frames * height * line_bytes / 8);
-    auto* const bytes = reinterpret_cast<std::byte*>(data.data());
-    std::minstd_rand random(1);
-    for (std::size_t i = 0; i < data.size() * 8 / sample_bytes(type); ++i) {
-        const float value = static_cast<float>(random() % 1000) / 1000.0F;
-        const std::uint16_t half = Imath::half(value).bits();
-        std::memcpy(bytes + i * sample_bytes(type),
-                    type == SampleType::Half ? static_cast<const void*>(&half) : &value, sample_bytes(type));
-    }
-    std::vector<WeightMatrix> weights{WeightMatrix(3, kBands), WeightMatrix(1, kBands),
-                                      WeightMatrix(12, kBands)};
-    for (auto& matrix : weights)
-        for (std::size_t row = 0; row < matrix.rows(); ++row)
-            for (std::size_t band = 0; band < kBands; ++band)
-                matrix.at(row, band) = 0.01 * static_cast<double>(1 + row + band);
-    std::vector<std::vector<float>> out(g_threads, std::vector<float>(12 * width));
-    std::atomic<std::uint64_t> kept = 0;
-    const auto collapse = [&](const WeightMatrix& matrix, std::size_t lines, std::size_t times) {
-        spread(times * lines, [&](unsigned worker, std::size_t line) {
-            std::vector<BandView> bands;
-            for (std::size_t band = 0; band < kBands; ++band)
-                bands.push_back({bytes + (line % lines) * line_bytes + band * run_bytes, type,
-                                 static_cast<std::ptrdiff_t>(sample_bytes(type))});
-            std::vector<float*> rows;
-            for (std::size_t row = 0; row < matrix.rows(); ++row)
-                rows.push_back(out[worker].data() + row * width);
-            collapse_run(bands, matrix, width, rows);
-        });
-    };
-    const std::size_t lines = frames * height;
-    const auto ms =
-        medians({{"read",
-                  [&] {
-                      spread(lines, [&](unsigned, std::size_t line) {
-                          kept ^= read_all(data.data() + line * line_bytes / 8, line_bytes / 8);
-                      });
-                  }},
-                 {"3 outputs", [&] { collapse(weights[0], lines, 1); }},
-                 {"1 output", [&] { collapse(weights[1], lines, 1); }},
-                 {"12 outputs", [&] { collapse(weights[2], lines, 1); }},
-                 {"3 outputs in cache", [&] { collapse(weights[0], g_threads, lines / g_threads); }}});
-    const double megabytes = static_cast<double>(data.size() * 8) / 1e6;
-    const double pixels = static_cast<double>(lines * width);
-    std::printf("| %s | %.1f |", std::string(sample_type_name(type)).c_str(), megabytes / ms[0]);
-    for (std::size_t i = 1; i <= 4; ++i)
-        std::printf(" %.0f %% |", 100 * ms[0] / ms[i]);
-    std::printf(" %.2f |\n", ms[4] * 1e6 * g_threads / pixels);
-}
-
 }  // namespace
 
 int main(int argc, char** argv) {
-    for (int i = 1; i + 1 < argc; i += 2) {
-        const std::string option = argv[i];
-        if (option == "--threads")
-            g_threads = static_cast<unsigned>(std::atoi(argv[i + 1]));
-        else if (option == "--rounds")
-            g_rounds = std::atoi(argv[i + 1]);
-        else if (option == "--size")
-            std::sscanf(argv[i + 1], "%dx%d", &g_width, &g_height);
-    }
-    Imf::setGlobalThreadCount(static_cast<int>(g_threads));
+    read_options(argc, argv);
+    Imf::setGlobalThreadCount(static_cast<int>(contest().threads));
     const std::filesystem::path folder = std::filesystem::temp_directory_path() / "osio-read-bench";
     std::filesystem::create_directories(folder);
-    std::printf("%dx%d, %u threads, medians of %d, ms\n\n", g_width, g_height, g_threads, g_rounds);
+    std::printf("%dx%d, %u threads, medians of %d, ms\n\n", contest().width, contest().height,
+                contest().threads, contest().rounds);
     std::printf("| file | MB | C++ API | Core | read + collapse | / stock | inflate | / inflate | 4 lights | "
                 "/ 1 light |\n"
                 "|---|---|---|---|---|---|---|---|---|---|\n");
@@ -366,11 +255,5 @@ int main(int argc, char** argv) {
     bench_file(f, "31 half dwaa", 31, Imf::HALF, Imf::DWAA_COMPRESSION);
     bench_file(f, "31 half dwab", 31, Imf::HALF, Imf::DWAB_COMPRESSION);
     std::filesystem::remove_all(folder);
-    std::printf("\nCollapse of 31 bands in memory, exact, against reading the same memory:\n\n"
-                "| samples | read, GB/s | 3 outputs | 1 output | 12 outputs | 3, in cache | ns a pixel and "
-                "thread, in cache |\n"
-                "|---|---|---|---|---|---|---|\n");
-    bench_memory(SampleType::Float);
-    bench_memory(SampleType::Half);
     return 0;
 }
