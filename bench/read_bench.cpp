@@ -6,7 +6,7 @@
 //     build/release/bench/read_bench [--threads 2] [--rounds 7] [--size 1920x1080]
 #include <formats/exr/block_readers.h>
 #include <formats/exr/block_source.h>
-#include <formats/exr/collapse_job.h>
+#include <formats/image/collapse_job.h>
 
 #include <osio/collapse/collapse_stream.h>
 
@@ -80,8 +80,8 @@ void write_image(const std::string& path, int bands, Imf::PixelType type, Imf::C
     file.writePixels(contest().height);
 }
 
-exr::PlaneChannels every_channel(const exr::ExrPart& part) {
-    exr::PlaneChannels out;
+image::PlaneChannels every_channel(const exr::ExrPart& part) {
+    image::PlaneChannels out;
     for (std::size_t c = 0; c < part.channels.size(); ++c)
         out.emplace_back(c);
     return out;
@@ -164,25 +164,25 @@ class NoSink final : public RowSink {
 };
 
 /// Plans of one file under several whites, which are as much work as several lights.
-std::vector<exr::CollapseJob> jobs_for(const std::string& path, const std::vector<const char*>& whites) {
-    std::vector<exr::CollapseJob> out;
+std::vector<image::CollapseJob> jobs_for(const std::string& path, const std::vector<const char*>& whites) {
+    std::vector<image::CollapseJob> out;
     for (const char* white : whites) {
         CollapseRequest request;
         must(set_option(request, "to", "lin_rec709"));
         must(set_option(request, "white", white));
-        out.push_back(must(exr::open_collapse(path, request, [](std::string_view) -> Result<std::string> {
+        out.push_back(must(image::open_collapse(path, request, [](std::string_view) -> Result<std::string> {
             return fail(ErrorCode::Io, "no file is read here");
         })));
     }
     return out;
 }
 
-void read_and_collapse(const std::string& path, const std::vector<exr::CollapseJob>& jobs) {
+void read_and_collapse(const std::string& path, const std::vector<image::CollapseJob>& jobs) {
     const auto file = must(exr::ExrFile::open(path));
     const auto source = must(exr::make_block_source(file, 0, every_channel(file->parts()[0])));
     NoSink sink;
     std::vector<CollapseTarget> targets;
-    for (const exr::CollapseJob& job : jobs)
+    for (const image::CollapseJob& job : jobs)
         targets.push_back({job.plan, sink});
     auto runner = threads();
     must(collapse_stream(*source, targets, false, {0, contest().height - 1}, runner, {}));

@@ -7,13 +7,8 @@
 
 #include <cstddef>
 #include <memory>
-#include <optional>
-#include <vector>
 
 namespace osio::exr {
-
-/// Which channel each plane of a block holds; nothing for a plane that nobody reads.
-using PlaneChannels = std::vector<std::optional<std::size_t>>;
 
 /// How a part is cut into blocks: chunks of scanlines, several where a chunk is one line, or rows
 /// of tiles. Blocks are numbered from the top.
@@ -26,13 +21,8 @@ struct BlockGrid {
     [[nodiscard]] int row_count(std::size_t block) const;
 };
 
-/// How many chunks of scanlines are taken together.
-enum class Grain {
-    Block,  ///< as many as are worth a worker's while
-    Chunk,  ///< one, so that a damaged one takes no others with it
-};
-
-/// The grid of a part, decided by its compression and tiles.
+/// The grid of a part, decided by its compression and tiles: Grain::Chunk is one chunk of
+/// scanlines.
 [[nodiscard]] BlockGrid block_grid(const ExrPart& part, Grain grain = Grain::Block);
 
 /// Decodes channels of one part into planar blocks: by stages of our own, or through the C++ API where

@@ -103,7 +103,7 @@ Result<void> check_limits(const ExrPart& part, std::uint64_t file_bytes) {
     if (std::max(subsampled ? 0 : whole, one) > held)
         return fail(ErrorCode::Damaged, "claims " + std::to_string(std::max(whole, one)) +
                                             " bytes of pixels, more than " + std::to_string(file_bytes) +
-                                            " bytes of " + part.compression() +
+                                            " bytes of " + part.compression +
                                             " can hold; the file is cut short or damaged");
     return {};
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <formats/exr/block_source.h>
 #include <formats/exr/chunk_geometry.h>
 #include <formats/exr/chunk_map.h>
 #include <formats/exr/exr_file.h>
@@ -11,7 +12,6 @@
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
 #include <OpenEXR/ImfPartType.h>
-#include <OpenEXR/ImfStringAttribute.h>
 #include <OpenEXR/openexr_base.h>
 #include <OpenEXR/openexr_part.h>
 
@@ -95,14 +95,6 @@ void warn_of_dialect(ExrPart& part) {
         part.layout.warnings.push_back("found " + *dialect + ": a dialect that is not read yet");
 }
 
-TextAttributes text_attributes(const Imf::Header& header) {
-    TextAttributes out;
-    for (auto a = header.begin(); a != header.end(); ++a)
-        if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
-            out.emplace(a.name(), text->value());
-    return out;
-}
-
 Result<ExrPart> understand(const Imf::Header& header, std::uint64_t file_bytes) {
     ExrPart part;
     part.header = header;
@@ -113,6 +105,7 @@ Result<ExrPart> understand(const Imf::Header& header, std::uint64_t file_bytes) 
     part.display_window = window_of(header.displayWindow());
     part.deep = header.hasType() && Imf::isDeepData(header.type());
     part.tiled = header.hasType() ? Imf::isTiled(header.type()) : header.hasTileDescription();
+    part.compression = compression_name(header.compression());
     part.channels = channels_of(header);
     if (part.channels.size() > kMostChannels)
         return fail(ErrorCode::Damaged, std::to_string(part.channels.size()) +
@@ -125,24 +118,11 @@ Result<ExrPart> understand(const Imf::Header& header, std::uint64_t file_bytes) 
     part.layout = parse_channel_layout(names, DecimalMark::Comma);
     if (part.layout.sets.empty())
         warn_of_dialect(part);
-    part.metadata = read_spectral_metadata(part.layout, text_attributes(header));
+    part.metadata = read_spectral_metadata(part.layout, image::text_attributes(header));
     return part;
 }
 
 }  // namespace
-
-std::string ExrPart::compression() const {
-    return compression_name(header.compression());
-}
-
-PartSummary ExrPart::summary() const {
-    PartSummary out{name, &layout, {}, deep, {}};
-    for (auto a = header.begin(); a != header.end(); ++a)
-        out.attribute_names.emplace_back(a.name());
-    for (const ExrChannel& channel : channels)
-        out.subsampled.push_back(channel.subsampled);
-    return out;
-}
 
 ExrFile::~ExrFile() {
     if (m_context != nullptr)
@@ -169,7 +149,7 @@ Result<std::shared_ptr<const ExrFile>> ExrFile::open(const std::string& path) {
         return fail_in(path, std::move(result).error());
     if (auto result = file->read_headers(bytes); !result)
         return fail_in(path, std::move(result).error());
-    auto chunks = ChunkMap::load(std::move(raw), *headers, file->m_parts, file->chunk_counts());
+    auto chunks = ChunkMap::load(std::move(raw), *headers, file->parts(), file->chunk_counts());
     if (!chunks)
         return fail_in(path, std::move(chunks).error());
     file->m_chunks = std::move(*chunks);
@@ -197,15 +177,15 @@ Result<void> ExrFile::check_chunks(std::uint64_t file_bytes) const {
 
 std::vector<std::uint64_t> ExrFile::chunk_counts() const {
     std::vector<std::uint64_t> out;
-    for (std::size_t part = 0; part < m_parts.size(); ++part) {
-        const Imf::Header& header = m_parts[part].header;
+    for (std::size_t part = 0; part < parts().size(); ++part) {
+        const Imf::Header& header = parts()[part].header;
         std::int64_t count = 0;
         if (int32_t told = 0; m_context != nullptr) {
             exr_get_chunk_count(m_context, static_cast<int>(part), &told);
             count = told;
         } else {
             count = header.hasChunkCount() ? header.chunkCount()
-                                           : static_cast<std::int64_t>(full_resolution_chunks(m_parts[part]));
+                                           : static_cast<std::int64_t>(full_resolution_chunks(parts()[part]));
         }
         out.push_back(static_cast<std::uint64_t>(std::max<std::int64_t>(count, 0)));
     }
@@ -215,10 +195,10 @@ std::vector<std::uint64_t> ExrFile::chunk_counts() const {
 Result<void> ExrFile::read_headers(std::uint64_t file_bytes) {
     try {
         // 0: no threads of OpenEXR's global pool, which belongs to the host.
-        const Imf::MultiPartInputFile file(m_path.c_str(), 0, false);
+        const Imf::MultiPartInputFile file(path().c_str(), 0, false);
         for (int i = 0; i < file.parts(); ++i) {
             OSIO_TRY(ExrPart part, understand(file.header(i), file_bytes));
-            m_parts.push_back(std::move(part));
+            add(std::move(part));
         }
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::Io, "out of memory");
@@ -228,11 +208,9 @@ Result<void> ExrFile::read_headers(std::uint64_t file_bytes) {
     return {};
 }
 
-std::vector<PartSummary> ExrFile::summaries() const {
-    std::vector<PartSummary> out;
-    for (const ExrPart& part : m_parts)
-        out.push_back(part.summary());
-    return out;
+Result<std::unique_ptr<BlockSource>> ExrFile::make_block_source(std::size_t part, PlaneChannels planes,
+                                                                Grain grain) const {
+    return exr::make_block_source(shared_from_this(), part, std::move(planes), grain);
 }
 
 bool starts_like_exr(const std::string& path) {

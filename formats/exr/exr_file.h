@@ -1,13 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <osio/base/result.h>
-#include <osio/collapse/band_view.h>
-#include <osio/collapse/selection.h>
-#include <osio/layout/channel_layout.h>
-#include <osio/layout/spectral_metadata.h>
+#include <formats/image/spectral_image.h>
 
-#include <OpenEXR/ImfHeader.h>
+#include <osio/base/result.h>
+
 #include <OpenEXR/ImfPixelType.h>
 #include <OpenEXR/openexr_context.h>
 
@@ -21,57 +18,28 @@ namespace osio::exr {
 
 class ChunkMap;
 
-/// A channel as its part stores it. Channels are in the order of their names, as in the file.
-struct ExrChannel {
-    std::string name;
-    SampleType type = SampleType::Float;
-    bool subsampled = false;
-};
+/// The words of formats/image, where an OpenEXR file has them: a part, its channels in the order of their
+/// names, as in the file, and which of them are read.
+using ExrPart = image::Part;
+using ExrChannel = image::Channel;
+using image::Grain;
+using image::PlaneChannels;
+using image::Window;
 
-/// A box of pixels, both corners inside.
-struct Window {
-    int min_x = 0, min_y = 0, max_x = 0, max_y = 0;
-
-    [[nodiscard]] int width() const { return max_x - min_x + 1; }
-
-    [[nodiscard]] int height() const { return max_y - min_y + 1; }
-
-    friend bool operator==(const Window&, const Window&) = default;
-};
-
-/// One part of a file: its header, understood.
-struct ExrPart {
-    std::string name;
-    Imf::Header header;  ///< carries every attribute, also those nobody here knows
-    Window data_window;
-    Window display_window;
-    std::vector<ExrChannel> channels;
-    bool deep = false;
-    bool tiled = false;
-    ChannelLayout layout;
-    SpectralMetadata metadata;
-
-    /// "zip", "piz", ...: OpenImageIO's words.
-    [[nodiscard]] std::string compression() const;
-    [[nodiscard]] PartSummary summary() const;
-};
-
-/// An OpenEXR file, headers read. Immutable: any number of threads may decode from it.
-class ExrFile {
+/// An OpenEXR file, headers read.
+class ExrFile final : public image::SpectralImage, public std::enable_shared_from_this<ExrFile> {
   public:
     /// Io where the system refuses, NotSpectral where it is no OpenEXR file, Damaged where headers
     /// contradict themselves, the file's length or our limits.
     [[nodiscard]] static Result<std::shared_ptr<const ExrFile>> open(const std::string& path);
 
-    ExrFile(const ExrFile&) = delete;
-    ExrFile& operator=(const ExrFile&) = delete;
-    ~ExrFile();
+    ~ExrFile() override;
 
-    [[nodiscard]] const std::string& path() const { return m_path; }
+    [[nodiscard]] std::string_view format() const override { return "OpenEXR"; }
 
-    [[nodiscard]] const std::vector<ExrPart>& parts() const { return m_parts; }
-
-    [[nodiscard]] std::vector<PartSummary> summaries() const;
+    /// exr::make_block_source() of this file.
+    [[nodiscard]] Result<std::unique_ptr<BlockSource>>
+    make_block_source(std::size_t part, PlaneChannels planes, Grain grain) const override;
 
     /// Where the chunks lie, and their checksums where the file has some.
     [[nodiscard]] const ChunkMap& chunks() const { return *m_chunks; }
@@ -80,15 +48,13 @@ class ExrFile {
     [[nodiscard]] exr_const_context_t context() const { return m_context; }
 
   private:
-    explicit ExrFile(std::string path) : m_path(std::move(path)) {}
+    explicit ExrFile(std::string path) : SpectralImage(std::move(path)) {}
 
     [[nodiscard]] Result<void> check_chunks(std::uint64_t file_bytes) const;
     [[nodiscard]] Result<void> read_headers(std::uint64_t file_bytes);
     [[nodiscard]] std::vector<std::uint64_t> chunk_counts() const;
 
-    std::string m_path;
     exr_context_t m_context = nullptr;
-    std::vector<ExrPart> m_parts;
     std::shared_ptr<const ChunkMap> m_chunks;
 };
 

@@ -49,8 +49,8 @@ bool is_structural(std::string_view name) {
     return std::find(kStructure.begin(), kStructure.end(), name) != kStructure.end();
 }
 
-Imf::Header collapsed_header(const CollapseJob& job) {
-    const ExrPart& part = job.part();
+Imf::Header collapsed_header(const image::CollapseJob& job) {
+    const image::Part& part = job.part();
     const CollapsePlan& plan = job.plan;
     Imf::Header out(part.header.displayWindow(), part.header.dataWindow());
     for (auto a = part.header.begin(); a != part.header.end(); ++a)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <formats/exr/collapse_job.h>
+#include <formats/image/collapse_job.h>
 
 #include <OpenEXR/ImfHeader.h>
 
@@ -23,7 +23,7 @@ inline constexpr const char* kChromaticities = "chromaticities";
 /// The header of a collapse: windows, pixel aspect, timecode and every other attribute of the part,
 /// without those that describe its bands, tiles or parts; with the space's chromaticities, its
 /// `oiio:ColorSpace` where one is true, and how it was made. No channels; compression zip.
-[[nodiscard]] Imf::Header collapsed_header(const CollapseJob& job);
+[[nodiscard]] Imf::Header collapsed_header(const image::CollapseJob& job);
 
 /// True for attributes that belong to the file's structure and are never copied as metadata.
 [[nodiscard]] bool is_structural(std::string_view attribute_name);

@@ -36,7 +36,7 @@ class InterleavedSink final : public RowSink {
 
 class CollapsedSubimage final : public Subimage {
   public:
-    CollapsedSubimage(OIIO::ImageSpec spec, std::unique_ptr<BlockSource> source, exr::CollapseJob job)
+    CollapsedSubimage(OIIO::ImageSpec spec, std::unique_ptr<BlockSource> source, image::CollapseJob job)
         : Subimage(std::move(spec), std::move(source)), m_job(std::move(job)) {}
 
     [[nodiscard]] Result<void> read_rows(RowRange rows, std::byte* out, Runner& runner) override {
@@ -50,12 +50,12 @@ class CollapsedSubimage final : public Subimage {
     }
 
   private:
-    exr::CollapseJob m_job;
+    image::CollapseJob m_job;
 };
 
 }  // namespace
 
-Result<std::unique_ptr<Subimage>> make_collapsed_subimage(exr::CollapseJob job, int subimage_count) {
+Result<std::unique_ptr<Subimage>> make_collapsed_subimage(image::CollapseJob job, int subimage_count) {
     OIIO::ImageSpec spec = spec_of_windows(job.part());
     spec.format = OIIO::TypeFloat;
     spec.channelnames = job.channel_names();

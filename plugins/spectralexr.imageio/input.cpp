@@ -3,6 +3,7 @@
 #include <plugins/spectralexr.imageio/input.h>
 
 #include <formats/files/text_file.h>
+#include <formats/image/open_image.h>
 
 #include <osio/collapse/selection.h>
 
@@ -100,18 +101,18 @@ Result<void> SpectralExrInput::load(const std::string& name, const OIIO::ImageSp
     OSIO_TRY(const OpenRequest open, resolve_open(name, config));
     if (!open.request.to)
         OSIO_CHECK_OK(check_raw_request(open.request));
-    OSIO_TRY(auto file, exr::ExrFile::open(open.path));
+    OSIO_TRY(auto file, image::open_image(open.path));
     if (!open.request.to)
         return add_raw_subimages(file, open.request);
-    OSIO_TRY(auto jobs, exr::prepare_collapses(file, open.request, files::text_loader({})));
-    for (exr::CollapseJob& job : jobs) {
+    OSIO_TRY(auto jobs, image::prepare_collapses(file, open.request, files::text_loader({})));
+    for (image::CollapseJob& job : jobs) {
         OSIO_TRY(auto subimage, make_collapsed_subimage(std::move(job), static_cast<int>(jobs.size())));
         m_subimages.push_back(std::move(subimage));
     }
     return {};
 }
 
-Result<void> SpectralExrInput::add_raw_subimages(const std::shared_ptr<const exr::ExrFile>& file,
+Result<void> SpectralExrInput::add_raw_subimages(const std::shared_ptr<const image::SpectralImage>& file,
                                                  const CollapseRequest& request) {
     const BandNames names = request.names == OutputNames::Layout ? BandNames::AsStored : BandNames::CommaFree;
     std::size_t first = 0, end = file->parts().size();

@@ -4,8 +4,6 @@
 #include <plugins/common/open_options.h>
 #include <plugins/spectralexr.imageio/subimage.h>
 
-#include <formats/exr/exr_file.h>
-
 #include <OpenImageIO/imageio.h>
 
 #include <memory>
@@ -37,7 +35,7 @@ class SpectralExrInput final : public OIIO::ImageInput {
   private:
     bool open_with(const std::string& name, OIIO::ImageSpec& spec, const OIIO::ImageSpec* config);
     Result<void> load(const std::string& name, const OIIO::ImageSpec* config);
-    Result<void> add_raw_subimages(const std::shared_ptr<const exr::ExrFile>& file,
+    Result<void> add_raw_subimages(const std::shared_ptr<const image::SpectralImage>& file,
                                    const CollapseRequest& request);
     Result<void> read(RowRange rows, std::byte* out);
     bool report(const std::string& name, const Error& error);

@@ -79,7 +79,7 @@ std::vector<PreviewSample> preview_samples_of_file(const std::string& path, std:
     const auto channels = PreviewChannels::find(layout);
     if (!channels)
         return {};
-    exr::PlaneChannels planes(layout.channel_names.size());
+    image::PlaneChannels planes(layout.channel_names.size());
     for (const Band& band : channels->set.bands)
         planes[band.channel] = band.channel;
     for (const std::size_t channel : channels->rgb)

@@ -68,11 +68,11 @@ class RawSubimage final : public Subimage {
 
 }  // namespace
 
-Result<std::unique_ptr<Subimage>> make_raw_subimage(std::shared_ptr<const exr::ExrFile> file,
+Result<std::unique_ptr<Subimage>> make_raw_subimage(std::shared_ptr<const image::SpectralImage> file,
                                                     std::size_t part, BandNames names, int subimage_count) {
-    const exr::ExrPart& header = file->parts()[part];
+    const image::Part& header = file->parts()[part];
     OIIO::ImageSpec spec = spec_of_windows(header);
-    exr::PlaneChannels planes;
+    image::PlaneChannels planes;
     spec.channelnames.clear();
     for (const PresentedChannel& channel : present_channels(header.layout, names)) {
         const OIIO::TypeDesc type = host_type(header.channels[channel.channel].type);
@@ -92,12 +92,12 @@ Result<std::unique_ptr<Subimage>> make_raw_subimage(std::shared_ptr<const exr::E
     add_metadata(header.header, spec);
     spec.attribute("oiio:ColorSpace", "Linear");
     spec.attribute("oiio:subimages", subimage_count);
-    spec.attribute("compression", header.compression());
+    spec.attribute("compression", header.compression);
     if (PreviewChannels::find(header.layout)) {
         spec.attribute(kSourceAttribute, file->path());
         spec.attribute(kSourcePartAttribute, static_cast<int>(part));
     }
-    OSIO_TRY(auto source, exr::make_block_source(std::move(file), part, std::move(planes)));
+    OSIO_TRY(auto source, file->make_block_source(part, std::move(planes), image::Grain::Block));
     return std::make_unique<RawSubimage>(std::move(spec), std::move(source));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <formats/exr/exr_file.h>
+#include <formats/image/spectral_image.h>
 
 #include <OpenImageIO/imageio.h>
 
@@ -18,7 +18,7 @@ namespace osio::plugin {
 }
 
 /// A spec with the part's data and display window and nothing else decided: no channels, scanlines.
-[[nodiscard]] inline OIIO::ImageSpec spec_of_windows(const exr::ExrPart& part) {
+[[nodiscard]] inline OIIO::ImageSpec spec_of_windows(const image::Part& part) {
     OIIO::ImageSpec spec;
     spec.x = part.data_window.min_x;
     spec.y = part.data_window.min_y;

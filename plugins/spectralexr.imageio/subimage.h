@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <formats/exr/collapse_job.h>
-#include <formats/exr/exr_file.h>
+#include <formats/image/collapse_job.h>
 
 #include <osio/collapse/stream.h>
 #include <osio/layout/presentation.h>
@@ -45,13 +44,13 @@ class Subimage {
 };
 
 /// A part with all its channels, as they are stored; one of `subimage_count` that the host sees.
-[[nodiscard]] Result<std::unique_ptr<Subimage>> make_raw_subimage(std::shared_ptr<const exr::ExrFile> file,
-                                                                  std::size_t part, BandNames names,
-                                                                  int subimage_count);
+[[nodiscard]] Result<std::unique_ptr<Subimage>>
+make_raw_subimage(std::shared_ptr<const image::SpectralImage> file, std::size_t part, BandNames names,
+                  int subimage_count);
 
 /// A part's bands as channels of a space, and alpha; one of `subimage_count`, one a light, that the host
 /// sees, and then named by its light.
-[[nodiscard]] Result<std::unique_ptr<Subimage>> make_collapsed_subimage(exr::CollapseJob job,
+[[nodiscard]] Result<std::unique_ptr<Subimage>> make_collapsed_subimage(image::CollapseJob job,
                                                                         int subimage_count);
 
 }  // namespace osio::plugin

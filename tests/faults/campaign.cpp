@@ -14,8 +14,8 @@
 // undamaged file's. A silent flip in deflated bytes that unpack to other bytes of the same Adler-32
 // counts as "collision": zlib's own check passes, so no reader could tell.
 #include <formats/exr/chunk_geometry.h>
-#include <formats/exr/collapse_job.h>
 #include <formats/exr/header_bytes.h>
+#include <formats/image/collapse_job.h>
 
 #include <osio/collapse/collapse_stream.h>
 
@@ -69,9 +69,9 @@ Result<std::string> collapse(const std::string& path) {
     const auto no_text = [](std::string_view name) -> Result<std::string> {
         return fail(ErrorCode::Io, std::string(name));
     };
-    OSIO_TRY(const exr::CollapseJob job, exr::open_collapse(path, request, no_text));
+    OSIO_TRY(const image::CollapseJob job, image::open_collapse(path, request, no_text));
     OSIO_TRY(const auto source, job.open_source());
-    const exr::Window& window = job.part().data_window;
+    const image::Window& window = job.part().data_window;
     Keep sink(static_cast<std::size_t>(window.width()));
     OneWorker runner;
     OSIO_TRY(const CollapseCounts counts, collapse_stream(*source, job.plan, job.alpha.has_value(),

@@ -42,7 +42,7 @@ TEST(ExrFile, HeadersAreUnderstood) {
     EXPECT_EQ(read.channels.size(), 33U);
     EXPECT_TRUE(read.tiled);
     EXPECT_FALSE(read.deep);
-    EXPECT_EQ(read.compression(), "piz");
+    EXPECT_EQ(read.compression, "piz");
     EXPECT_EQ(read.metadata.layout_version, "1.0");
     ASSERT_EQ(read.layout.sets.size(), 1U);
     EXPECT_EQ(read.layout.sets[0].bands.size(), 31U);

@@ -8,8 +8,8 @@
 // Fails where two differ. scripts/one_answer.sh compares the answers of two compilers.
 #include <tools/osiotool/thread_runner.h>
 
-#include <formats/exr/collapse_job.h>
 #include <formats/exr/exr_writer.h>
+#include <formats/image/collapse_job.h>
 
 #include <osio/base/fingerprint.h>
 #include <osio/base/half.h>
@@ -91,15 +91,15 @@ class HashSink final : public RowSink {
     Fingerprint m_hash;
 };
 
-exr::CollapseJob job_for(const std::string& path) {
+image::CollapseJob job_for(const std::string& path) {
     CollapseRequest request;
     must(set_option(request, "to", "lin_rec709"));
-    return must(exr::open_collapse(path, request, [](std::string_view name) -> Result<std::string> {
+    return must(image::open_collapse(path, request, [](std::string_view name) -> Result<std::string> {
         return fail(ErrorCode::Io, std::string(name));
     }));
 }
 
-std::string streamed(const exr::CollapseJob& job, unsigned threads) {
+std::string streamed(const image::CollapseJob& job, unsigned threads) {
     const auto source = must(job.open_source());
     HashSink sink;
     tool::ThreadRunner workers(threads);
@@ -107,7 +107,7 @@ std::string streamed(const exr::CollapseJob& job, unsigned threads) {
     return sink.hex();
 }
 
-std::string by_reference(const exr::CollapseJob& job, const Picture& picture) {
+std::string by_reference(const image::CollapseJob& job, const Picture& picture) {
     std::vector<BandView> bands;
     for (const std::vector<float>& plane : picture.floats)
         bands.push_back({reinterpret_cast<const std::byte*>(plane.data()), SampleType::Float, sizeof(float)});
@@ -136,7 +136,7 @@ int main() {
              {Imf::ZIP_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::NO_COMPRESSION, Imf::PIZ_COMPRESSION}) {
             const Picture picture(in_half);
             picture.write(path, compression);
-            const exr::CollapseJob job = job_for(path);
+            const image::CollapseJob job = job_for(path);
             const std::string name =
                 std::string(in_half ? "half" : "float") + "-" + std::to_string(static_cast<int>(compression));
             const std::string expected = by_reference(job, picture);

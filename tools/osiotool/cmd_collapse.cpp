@@ -19,26 +19,26 @@ namespace osio::tool {
 namespace {
 
 /// The rows that cannot be decoded; an error where none can.
-Result<std::vector<exr::BadRows>> missing_rows(const std::vector<exr::CollapseJob>& jobs, RowRange rows,
+Result<std::vector<exr::BadRows>> missing_rows(const std::vector<image::CollapseJob>& jobs, RowRange rows,
                                                Runner& runner) {
-    const exr::CollapseJob& job = jobs.front();
-    OSIO_TRY(const auto source, exr::open_source(jobs, exr::Grain::Chunk));
+    const image::CollapseJob& job = jobs.front();
+    OSIO_TRY(const auto source, image::open_source(jobs, image::Grain::Chunk));
     OSIO_TRY(auto bad, exr::find_bad_rows(*source, rows, runner, [](double) { return !interrupted(); }));
     if (exr::row_count(bad) == static_cast<std::size_t>(job.part().data_window.height()))
         return fail(ErrorCode::Damaged, "no row can be decoded; first: " + bad.front().why, job.file->path());
     return bad;
 }
 
-Result<std::unique_ptr<BlockSource>> open_source(const std::vector<exr::CollapseJob>& jobs,
+Result<std::unique_ptr<BlockSource>> open_source(const std::vector<image::CollapseJob>& jobs,
                                                  const std::vector<exr::BadRows>& missing) {
     if (missing.empty())
-        return exr::open_source(jobs);
-    OSIO_TRY(auto source, exr::open_source(jobs, exr::Grain::Chunk));
+        return image::open_source(jobs);
+    OSIO_TRY(auto source, image::open_source(jobs, image::Grain::Chunk));
     return exr::with_black_rows(std::move(source), missing, jobs.front().plane_types());
 }
 
 /// What a user is told, but for what --json prints.
-void report(const CollapseOptions& options, const std::vector<exr::CollapseJob>& jobs,
+void report(const CollapseOptions& options, const std::vector<image::CollapseJob>& jobs,
             const std::vector<CollapseOutcome>& outcomes) {
     if (!options.quiet)
         for (std::size_t i = 0; i < jobs.size(); ++i) {
@@ -58,13 +58,13 @@ void report(const CollapseOptions& options, const std::vector<exr::CollapseJob>&
 Result<ExitCode> run_collapse(const CollapseOptions& options) {
     const auto started = std::chrono::steady_clock::now();
     OSIO_TRY(const CollapseRequest request, request_of(options.request));
-    OSIO_TRY(const auto jobs, exr::open_collapses(options.input, request, files::text_loader({})));
-    const exr::CollapseJob& first = jobs.front();
+    OSIO_TRY(const auto jobs, image::open_collapses(options.input, request, files::text_loader({})));
+    const image::CollapseJob& first = jobs.front();
     OSIO_TRY(const host::StoredType type, choose_depth(options, first.plan.space));
     ThreadRunner runner(options.threads);
     exr::set_compression_threads(runner.worker_count());
     catch_interrupts();
-    const exr::Window& window = first.part().data_window;
+    const image::Window& window = first.part().data_window;
     const RowRange rows{window.min_y, window.max_y};
     std::vector<exr::BadRows> missing;
     if (options.allow_partial) {

@@ -14,11 +14,11 @@ namespace osio::tool {
 
 namespace {
 
-Result<void> check_sizes(const exr::ColourImage& a, const exr::ColourImage& b) {
-    const exr::Window &wa = a.part().data_window, &wb = b.part().data_window;
+Result<void> check_sizes(const image::ColourImage& a, const image::ColourImage& b) {
+    const image::Window &wa = a.part().data_window, &wb = b.part().data_window;
     if (wa == wb)
         return {};
-    const auto text = [](const exr::Window& w) {
+    const auto text = [](const image::Window& w) {
         return fmt::format("{}x{} pixels at {},{}", w.width(), w.height(), w.min_x, w.min_y);
     };
     return fail(ErrorCode::Unsupported,
@@ -26,7 +26,7 @@ Result<void> check_sizes(const exr::ColourImage& a, const exr::ColourImage& b) {
                             a.file->path(), text(wa), b.file->path(), text(wb)));
 }
 
-Result<std::unique_ptr<exr::ExrSink>> open_map(const std::string& path, const exr::ExrPart& part) {
+Result<std::unique_ptr<exr::ExrSink>> open_map(const std::string& path, const image::Part& part) {
     const Imf::Header header(part.header.displayWindow(), part.header.dataWindow());
     const std::vector<exr::OutputChannel> channels{{"deltaE", SampleType::Float}};
     OSIO_TRY(auto writer, exr::ExrWriter::create(path, header, channels));
@@ -52,8 +52,8 @@ std::pair<std::string, bool> judge(const DifferenceOptions& options, const Diffe
 Result<ExitCode> run_difference(const DifferenceOptions& options) {
     OSIO_TRY(const CollapseRequest request, request_of(options.request));
     const TextLoader load_text = files::text_loader({});
-    OSIO_TRY(const exr::ColourImage a, exr::open_colour_image(options.a, request, load_text));
-    OSIO_TRY(const exr::ColourImage b, exr::open_colour_image(options.b, request, load_text));
+    OSIO_TRY(const image::ColourImage a, image::open_colour_image(options.a, request, load_text));
+    OSIO_TRY(const image::ColourImage b, image::open_colour_image(options.b, request, load_text));
     if (!a.spectral && !b.spectral && !options.request.empty())
         for (const auto& [key, value] : options.request)
             if (key != "part")
@@ -72,7 +72,7 @@ Result<ExitCode> run_difference(const DifferenceOptions& options) {
     DifferenceLimits limits;
     limits.fail = options.fail.value_or(limits.fail);
     limits.warn = options.warn.value_or(limits.warn);
-    const exr::Window& window = a.part().data_window;
+    const image::Window& window = a.part().data_window;
     DifferenceOutcome outcome{a, b, {}, {}};
     {
         ProgressBar bar(options.a, !options.quiet);
@@ -87,7 +87,7 @@ Result<ExitCode> run_difference(const DifferenceOptions& options) {
     const auto [verdict, failed] = judge(options, outcome.counts);
     outcome.verdict = verdict;
 
-    for (const exr::ColourImage* image : {&a, &b})
+    for (const image::ColourImage* image : {&a, &b})
         if (!options.quiet)
             for (const std::string& warning : image->warnings)
                 fmt::print(stderr, "warning: {}: {}\n", image->file->path(), warning);

@@ -2,12 +2,14 @@
 #include <tools/osiotool/commands.h>
 #include <tools/osiotool/report.h>
 
+#include <formats/image/open_image.h>
+
 #include <fmt/format.h>
 
 namespace osio::tool {
 
 Result<ExitCode> run_info(const InfoOptions& options) {
-    OSIO_TRY(const auto file, exr::ExrFile::open(options.input));
+    OSIO_TRY(const auto file, image::open_image(options.input));
     fmt::print("{}", options.json ? info_json(*file) : info_text(*file));
     return kDone;
 }

@@ -57,7 +57,7 @@ class PhotometrySink final : public RowSink {
     double m_radiance = 0;
 };
 
-Result<std::unique_ptr<exr::ExrSink>> open_image(const std::string& path, const exr::CollapseJob& job) {
+Result<std::unique_ptr<exr::ExrSink>> open_image(const std::string& path, const image::CollapseJob& job) {
     if (!to_lower(path).ends_with(".exr"))
         return fail(ErrorCode::Usage, "a luminance image is written as .exr", path);
     Imf::Header header = exr::collapsed_header(job);
@@ -93,7 +93,7 @@ Result<ExitCode> run_photometry(const PhotometryOptions& options) {
     if (options.input.empty())
         return photometry_of_light(options, request);
     OSIO_TRY(request.to, find_output_space("xyz"));
-    OSIO_TRY(exr::CollapseJob job, exr::open_collapse(options.input, request, files::text_loader({})));
+    OSIO_TRY(image::CollapseJob job, image::open_collapse(options.input, request, files::text_loader({})));
     if (job.plan.illuminant)
         return fail(ErrorCode::Unsupported,
                     "set " + job.plan.request.set +
@@ -114,7 +114,7 @@ Result<ExitCode> run_photometry(const PhotometryOptions& options) {
     if (!options.output.empty()) {
         OSIO_TRY(image, open_image(options.output, job));
     }
-    const exr::Window& window = job.part().data_window;
+    const image::Window& window = job.part().data_window;
     PhotometrySink sink(static_cast<std::size_t>(window.width()), image.get());
     {
         ProgressBar bar(options.input, !options.quiet);

@@ -11,7 +11,7 @@ namespace osio::tool {
 
 Result<ExitCode> run_plan(const PlanOptions& options) {
     OSIO_TRY(const CollapseRequest request, request_of(options.request));
-    OSIO_TRY(const auto jobs, exr::open_collapses(options.input, request, files::text_loader({})));
+    OSIO_TRY(const auto jobs, image::open_collapses(options.input, request, files::text_loader({})));
     if (options.json)
         fmt::print("{}", plans_json(jobs));
     else

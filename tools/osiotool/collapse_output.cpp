@@ -36,14 +36,14 @@ files::Durability durability_of(const CollapseOptions& options) {
     return options.fsync ? files::Durability::Stored : files::Durability::Handed;
 }
 
-Imf::Header header_of(const exr::CollapseJob& job, const std::vector<exr::BadRows>& missing) {
+Imf::Header header_of(const image::CollapseJob& job, const std::vector<exr::BadRows>& missing) {
     Imf::Header header = exr::collapsed_header(job);
     exr::note_missing_rows(missing, header);
     return header;
 }
 
 /// A job's part of an EXR.
-Result<exr::OutputPart> part_for(const CollapseOptions& options, const exr::CollapseJob& job,
+Result<exr::OutputPart> part_for(const CollapseOptions& options, const image::CollapseJob& job,
                                  Imf::Header header, SampleType sample) {
     if (!options.compression.empty()) {
         OSIO_TRY(header.compression(), exr::find_compression(options.compression));
@@ -56,7 +56,7 @@ Result<exr::OutputPart> part_for(const CollapseOptions& options, const exr::Coll
 
 /// One EXR for all jobs: a part each, with the light's name where there are several.
 Result<std::vector<CollapseOutput>> open_exr(const CollapseOptions& options, const std::string& path,
-                                             std::span<const exr::CollapseJob> jobs,
+                                             std::span<const image::CollapseJob> jobs,
                                              std::span<const std::string> names,
                                              const std::vector<exr::BadRows>& missing, StoredType type) {
     const SampleType sample = type == StoredType::Half ? SampleType::Half : SampleType::Float;
@@ -85,7 +85,7 @@ Result<std::vector<CollapseOutput>> open_exr(const CollapseOptions& options, con
 }
 
 Result<CollapseOutput> open_other(const CollapseOptions& options, const std::string& path,
-                                  const exr::CollapseJob& job, const Imf::Header& header, StoredType type) {
+                                  const image::CollapseJob& job, const Imf::Header& header, StoredType type) {
     if (!options.compression.empty())
         return fail(ErrorCode::Usage, "--compression is for .exr output");
     OSIO_TRY(const host::HostModule* const module, load_host_module());
@@ -101,11 +101,11 @@ Result<CollapseOutput> open_other(const CollapseOptions& options, const std::str
 }
 
 /// The lights' names for files and parts. Usage where there is no light or two have the same name.
-Result<std::vector<std::string>> names_of(const std::vector<exr::CollapseJob>& jobs, bool needed) {
+Result<std::vector<std::string>> names_of(const std::vector<image::CollapseJob>& jobs, bool needed) {
     std::vector<std::string> names;
     if (!needed)
         return names;
-    for (const exr::CollapseJob& job : jobs) {
+    for (const image::CollapseJob& job : jobs) {
         if (!job.plan.illuminant)
             return fail(ErrorCode::Usage, "the output's name holds " + std::string(kIlluminantMark) +
                                               ", and there is no light to name: the bands are radiance");
@@ -164,7 +164,7 @@ Result<StoredType> choose_depth(const CollapseOptions& options, const OutputSpac
 }
 
 Result<std::vector<CollapseOutput>> open_outputs(const CollapseOptions& options,
-                                                 const std::vector<exr::CollapseJob>& jobs,
+                                                 const std::vector<image::CollapseJob>& jobs,
                                                  const std::vector<exr::BadRows>& missing, StoredType type) {
     const bool marked = options.output.find(kIlluminantMark) != std::string::npos;
     if (!marked && jobs.size() > 1 && !is_exr(options.output))

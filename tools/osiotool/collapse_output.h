@@ -5,8 +5,8 @@
 #include <tools/osiotool/commands.h>
 #include <tools/osiotool/report.h>
 
-#include <formats/exr/collapse_job.h>
 #include <formats/exr/soundness.h>
+#include <formats/image/collapse_job.h>
 
 #include <functional>
 #include <memory>
@@ -35,7 +35,7 @@ struct CollapseOutput {
 /// of one EXR, named by their lights. EXR is written by our writer, anything else by OpenImageIO's.
 /// The outputs are finished in this order. Usage where names do not fit the lights.
 [[nodiscard]] Result<std::vector<CollapseOutput>> open_outputs(const CollapseOptions& options,
-                                                               const std::vector<exr::CollapseJob>& jobs,
+                                                               const std::vector<image::CollapseJob>& jobs,
                                                                const std::vector<exr::BadRows>& missing,
                                                                host::StoredType type);
 

@@ -2,10 +2,10 @@
 #pragma once
 
 #include <formats/exr/chunk_map.h>
-#include <formats/exr/collapse_job.h>
-#include <formats/exr/colour_image.h>
 #include <formats/exr/exr_file.h>
 #include <formats/exr/soundness.h>
+#include <formats/image/collapse_job.h>
+#include <formats/image/colour_image.h>
 
 #include <osio/base/value_statistics.h>
 #include <osio/collapse/baked_matrix.h>
@@ -51,8 +51,8 @@ struct FileSoundness {
 
 /// What a comparison found.
 struct DifferenceOutcome {
-    const exr::ColourImage& a;
-    const exr::ColourImage& b;
+    const image::ColourImage& a;
+    const image::ColourImage& b;
     DifferenceCounts counts;
     std::string verdict;  ///< PASS, WARNING, FAILURE; empty where nothing was to be judged
 };
@@ -91,16 +91,16 @@ struct LightOutcome {
 /// Our spaces and those of a colour config, which may be null.
 [[nodiscard]] std::string spaces_json(const ColourConfig* config);
 
-[[nodiscard]] std::string info_text(const exr::ExrFile& file);
-[[nodiscard]] std::string info_json(const exr::ExrFile& file);
+[[nodiscard]] std::string info_text(const image::SpectralImage& file);
+[[nodiscard]] std::string info_json(const image::SpectralImage& file);
 
-[[nodiscard]] std::string plan_text(const exr::CollapseJob& job);
+[[nodiscard]] std::string plan_text(const image::CollapseJob& job);
 /// One plan as an object, several as the array of an object's `plans`.
-[[nodiscard]] std::string plans_json(const std::vector<exr::CollapseJob>& jobs);
+[[nodiscard]] std::string plans_json(const std::vector<image::CollapseJob>& jobs);
 
-[[nodiscard]] std::string outcome_text(const exr::CollapseJob& job, const CollapseOutcome& outcome);
+[[nodiscard]] std::string outcome_text(const image::CollapseJob& job, const CollapseOutcome& outcome);
 /// One outcome as an object, several as the array of an object's `outputs`.
-[[nodiscard]] std::string outcomes_json(const std::vector<exr::CollapseJob>& jobs,
+[[nodiscard]] std::string outcomes_json(const std::vector<image::CollapseJob>& jobs,
                                         const std::vector<CollapseOutcome>& outcomes);
 
 [[nodiscard]] std::string verify_text(const FileSoundness& file);

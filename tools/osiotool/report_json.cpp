@@ -14,7 +14,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kIndent = 2;
 
-Json window_json(const exr::Window& w) {
+Json window_json(const image::Window& w) {
     return {w.min_x, w.min_y, w.max_x, w.max_y};
 }
 
@@ -22,7 +22,7 @@ Json optional_text(const std::optional<std::string>& text) {
     return text ? Json(*text) : Json(nullptr);
 }
 
-Json set_json(const exr::ExrPart& part, const SpectralSet& set) {
+Json set_json(const image::Part& part, const SpectralSet& set) {
     Json channels = Json::array(), types = Json::array();
     for (const Band& band : set.bands) {
         channels.push_back(part.layout.channel_names[band.channel]);
@@ -41,7 +41,7 @@ Json set_json(const exr::ExrPart& part, const SpectralSet& set) {
     return out;
 }
 
-Json part_json(const exr::ExrPart& part) {
+Json part_json(const image::Part& part) {
     Json sets = Json::array(), others = Json::array(), warnings = Json::array();
     for (const SpectralSet& set : part.layout.sets)
         sets.push_back(set_json(part, set));
@@ -58,7 +58,7 @@ Json part_json(const exr::ExrPart& part) {
             {"display_window", window_json(part.display_window)},
             {"storage", part.tiled ? "tiles" : "scanlines"},
             {"deep", part.deep},
-            {"compression", part.compression()},
+            {"compression", part.compression},
             {"channels", part.channels.size()},
             {"layout_version", optional_text(part.metadata.layout_version)},
             {"sets", std::move(sets)},
@@ -93,7 +93,7 @@ Json config_json(const OutputSpace& space) {
             {"processor", source.processor}, {"linear", space.transform->is_linear()}};
 }
 
-Json plan_object(const exr::CollapseJob& job) {
+Json plan_object(const image::CollapseJob& job) {
     const CollapsePlan& plan = job.plan;
     Json weights = Json::array(), channels = Json::array();
     for (std::size_t row = 0; row < plan.weights.rows(); ++row) {
@@ -167,7 +167,7 @@ Json soundness_json(const FileSoundness& file) {
             {"parts", std::move(parts)}};
 }
 
-Json outcome_object(const exr::CollapseJob& job, const CollapseOutcome& outcome) {
+Json outcome_object(const image::CollapseJob& job, const CollapseOutcome& outcome) {
     return {{"input", job.file->path()},
             {"output", outcome.output},
             {"type", outcome.type},
@@ -197,7 +197,7 @@ std::string dump(const Json& json) {
 std::string difference_json(const DifferenceOutcome& outcome) {
     const ValueStatistics& delta = outcome.counts.delta_e;
     Json warnings = Json::array();
-    for (const exr::ColourImage* image : {&outcome.a, &outcome.b})
+    for (const image::ColourImage* image : {&outcome.a, &outcome.b})
         for (const std::string& warning : image->warnings)
             warnings.push_back(image->file->path() + ": " + warning);
     return dump({{"a", outcome.a.file->path()},
@@ -288,16 +288,16 @@ std::string spaces_json(const ColourConfig* config) {
          {"config", {{"file", config->file()}, {"name", config->name()}, {"names", std::move(names)}}}});
 }
 
-std::string info_json(const exr::ExrFile& file) {
+std::string info_json(const image::SpectralImage& file) {
     Json parts = Json::array();
-    for (const exr::ExrPart& part : file.parts())
+    for (const image::Part& part : file.parts())
         parts.push_back(part_json(part));
     return dump({{"file", file.path()}, {"parts", std::move(parts)}});
 }
 
-std::string plans_json(const std::vector<exr::CollapseJob>& jobs) {
+std::string plans_json(const std::vector<image::CollapseJob>& jobs) {
     Json plans = Json::array();
-    for (const exr::CollapseJob& job : jobs)
+    for (const image::CollapseJob& job : jobs)
         plans.push_back(plan_object(job));
     return dump(jobs.size() == 1 ? plans.front() : Json{{"plans", std::move(plans)}});
 }
@@ -309,7 +309,7 @@ std::string verify_json(const std::vector<FileSoundness>& files) {
     return dump({{"files", std::move(out)}});
 }
 
-std::string outcomes_json(const std::vector<exr::CollapseJob>& jobs,
+std::string outcomes_json(const std::vector<image::CollapseJob>& jobs,
                           const std::vector<CollapseOutcome>& outcomes) {
     Json outputs = Json::array();
     for (std::size_t i = 0; i < jobs.size(); ++i)

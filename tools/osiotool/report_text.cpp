@@ -23,7 +23,7 @@ constexpr std::size_t kNamedChannels = 12;
 
 /// The pixel types of some channels: "float", or "half and float".
 template <class Channels, class IndexOf>
-std::string types_text(const exr::ExrPart& part, const Channels& channels, IndexOf index_of) {
+std::string types_text(const image::Part& part, const Channels& channels, IndexOf index_of) {
     std::vector<std::string> names;
     for (const auto& channel : channels) {
         const std::string name(sample_type_name(part.channels[index_of(channel)].type));
@@ -33,11 +33,11 @@ std::string types_text(const exr::ExrPart& part, const Channels& channels, Index
     return join(names, " and ");
 }
 
-std::string window_text(const exr::Window& w) {
+std::string window_text(const image::Window& w) {
     return fmt::format("{},{} to {},{}", w.min_x, w.min_y, w.max_x, w.max_y);
 }
 
-std::string set_text(const exr::ExrPart& part, const SpectralSet& set) {
+std::string set_text(const image::Part& part, const SpectralSet& set) {
     const auto of_band = [](const Band& band) { return band.channel; };
     std::string out = fmt::format("  set {}: {}", set.name(), quantity_name(set.quantity()));
     if (set.quantity() == Quantity::Radiance)
@@ -50,11 +50,11 @@ std::string set_text(const exr::ExrPart& part, const SpectralSet& set) {
     return out + "\n";
 }
 
-std::string part_text(const exr::ExrPart& part, std::size_t index) {
+std::string part_text(const image::Part& part, std::size_t index) {
     std::string out = fmt::format("part {}{}: {}x{} pixels, {} channels, {}{}, {} compression\n", index,
                                   part.name.empty() ? "" : " \"" + part.name + "\"", part.data_window.width(),
                                   part.data_window.height(), part.channels.size(), part.deep ? "deep " : "",
-                                  part.tiled ? "tiles" : "scanlines", part.compression());
+                                  part.tiled ? "tiles" : "scanlines", part.compression);
     out += "  data window " + window_text(part.data_window);
     out += part.display_window == part.data_window
                ? ", the display window too\n"
@@ -110,7 +110,7 @@ std::string spacing_text(const std::vector<double>& nm) {
     return range + fmt::format(" spaced {:.6g} to {:.6g} nm", least, most);
 }
 
-std::string info_text(const exr::ExrFile& file) {
+std::string info_text(const image::SpectralImage& file) {
     std::string out =
         fmt::format("{}: {} part{}\n", file.path(), file.parts().size(), file.parts().size() == 1 ? "" : "s");
     for (std::size_t part = 0; part < file.parts().size(); ++part)
@@ -118,7 +118,7 @@ std::string info_text(const exr::ExrFile& file) {
     return out;
 }
 
-std::string plan_text(const exr::CollapseJob& job) {
+std::string plan_text(const image::CollapseJob& job) {
     const CollapsePlan& plan = job.plan;
     std::string out = fmt::format("recipe       {}\nplan         {}\n", recipe_text(plan.request), plan.id);
     out += fmt::format("set          {} of part {}: {} bands, {}\n", plan.request.set, job.part_index,
@@ -186,7 +186,7 @@ std::string bake_text(const BakedMatrix& baked) {
     return out;
 }
 
-std::string outcome_text(const exr::CollapseJob& job, const CollapseOutcome& outcome) {
+std::string outcome_text(const image::CollapseJob& job, const CollapseOutcome& outcome) {
     const CollapsePlan& plan = job.plan;
     std::string out = fmt::format(
         "{}: {}x{} {} {}, from {} bands of set {}{} ({}), plan {}, {:.2f} s\n", outcome.output,

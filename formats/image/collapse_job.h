@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <formats/exr/block_source.h>
-#include <formats/exr/exr_file.h>
+#include <formats/image/spectral_image.h>
 
 #include <osio/collapse/plan.h>
 #include <osio/collapse/stream.h>
@@ -14,7 +13,7 @@
 #include <string>
 #include <vector>
 
-namespace osio::exr {
+namespace osio::image {
 
 struct CollapseJob;
 
@@ -25,20 +24,20 @@ struct CollapseJob;
 /// A file, the part of it that a request means, and the plan for its bands: everything that is
 /// decided before a pixel is read.
 struct CollapseJob {
-    std::shared_ptr<const ExrFile> file;
+    std::shared_ptr<const SpectralImage> file;
     std::size_t part_index = 0;
     CollapsePlan plan;
     std::optional<std::size_t> alpha;   ///< channel that passes through
     std::vector<std::string> warnings;  ///< of the layout and of the plan
 
-    [[nodiscard]] const ExrPart& part() const { return file->parts()[part_index]; }
+    [[nodiscard]] const Part& part() const { return file->parts()[part_index]; }
 
     /// Names of the result's channels, alpha last.
     [[nodiscard]] std::vector<std::string> channel_names() const;
 
     /// The bands that the plan needs, then alpha.
     [[nodiscard]] Result<std::unique_ptr<BlockSource>> open_source(Grain grain = Grain::Block) const {
-        return exr::open_source({this, 1}, grain);
+        return image::open_source({this, 1}, grain);
     }
 
     /// How the samples of the source's planes are stored.
@@ -56,13 +55,13 @@ struct CollapseJob {
 open_collapses(const std::string& path, const CollapseRequest& request, const TextLoader& load_text);
 
 /// The same for a file that is open already.
-[[nodiscard]] Result<std::vector<CollapseJob>> prepare_collapses(const std::shared_ptr<const ExrFile>& file,
-                                                                 const CollapseRequest& request,
-                                                                 const TextLoader& load_text);
+[[nodiscard]] Result<std::vector<CollapseJob>>
+prepare_collapses(const std::shared_ptr<const SpectralImage>& file, const CollapseRequest& request,
+                  const TextLoader& load_text);
 
 /// One job for a file that is open already.
-[[nodiscard]] Result<CollapseJob> prepare_collapse(std::shared_ptr<const ExrFile> file,
+[[nodiscard]] Result<CollapseJob> prepare_collapse(std::shared_ptr<const SpectralImage> file,
                                                    const CollapseRequest& request,
                                                    const TextLoader& load_text);
 
-}  // namespace osio::exr
+}  // namespace osio::image

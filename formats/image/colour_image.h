@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <formats/exr/block_source.h>
-#include <formats/exr/exr_file.h>
+#include <formats/image/spectral_image.h>
 
 #include <osio/collapse/difference_stream.h>
 #include <osio/collapse/plan.h>
@@ -10,11 +9,11 @@
 #include <string>
 #include <vector>
 
-namespace osio::exr {
+namespace osio::image {
 
 /// An image whose pixels have an XYZ, whatever its channels: bands under a request, or R, G, B or X, Y, Z.
 struct ColourImage {
-    std::shared_ptr<const ExrFile> file;
+    std::shared_ptr<const SpectralImage> file;
     std::size_t part_index = 0;
     PlaneChannels planes;
     XyzRecipe recipe;
@@ -22,7 +21,7 @@ struct ColourImage {
     std::string meaning;                ///< how it was understood, for people
     std::vector<std::string> warnings;  ///< what was assumed
 
-    [[nodiscard]] const ExrPart& part() const { return file->parts()[part_index]; }
+    [[nodiscard]] const Part& part() const { return file->parts()[part_index]; }
 
     [[nodiscard]] Result<std::unique_ptr<BlockSource>> open_source() const;
 };
@@ -35,4 +34,4 @@ struct ColourImage {
 [[nodiscard]] Result<ColourImage> open_colour_image(const std::string& path, const CollapseRequest& request,
                                                     const TextLoader& load_text);
 
-}  // namespace osio::exr
+}  // namespace osio::image

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <formats/exr/collapse_job.h>
+#include <formats/image/collapse_job.h>
+#include <formats/image/open_image.h>
 
 #include <osio/collapse/selection.h>
 
 #include <algorithm>
 
-namespace osio::exr {
+namespace osio::image {
 
 std::vector<std::string> CollapseJob::channel_names() const {
     std::vector<std::string> names = plan.channel_names();
@@ -34,22 +35,22 @@ Result<std::unique_ptr<BlockSource>> open_source(std::span<const CollapseJob> jo
     }
     if (first.alpha)
         planes.emplace_back(first.alpha);
-    return make_block_source(first.file, first.part_index, std::move(planes), grain);
+    return first.file->make_block_source(first.part_index, std::move(planes), grain);
 }
 
 Result<CollapseJob> open_collapse(const std::string& path, const CollapseRequest& request,
                                   const TextLoader& load_text) {
-    OSIO_TRY(auto file, ExrFile::open(path));
+    OSIO_TRY(auto file, open_image(path));
     return prepare_collapse(std::move(file), request, load_text);
 }
 
-Result<CollapseJob> prepare_collapse(std::shared_ptr<const ExrFile> file, const CollapseRequest& request,
-                                     const TextLoader& load_text) {
+Result<CollapseJob> prepare_collapse(std::shared_ptr<const SpectralImage> file,
+                                     const CollapseRequest& request, const TextLoader& load_text) {
     const auto summaries = file->summaries();
     const auto selection = select_set(summaries, request);
     if (!selection)
         return fail_in(file->path(), selection.error());
-    const ExrPart& part = file->parts()[selection->part];
+    const Part& part = file->parts()[selection->part];
     const ChannelLayout& layout = part.layout;
     const SpectralSet& set = layout.sets[selection->set];
     auto plan = make_plan(set, part.metadata, request, load_text);
@@ -66,11 +67,11 @@ Result<CollapseJob> prepare_collapse(std::shared_ptr<const ExrFile> file, const 
 
 Result<std::vector<CollapseJob>> open_collapses(const std::string& path, const CollapseRequest& request,
                                                 const TextLoader& load_text) {
-    OSIO_TRY(const std::shared_ptr<const ExrFile> file, ExrFile::open(path));
+    OSIO_TRY(const std::shared_ptr<const SpectralImage> file, open_image(path));
     return prepare_collapses(file, request, load_text);
 }
 
-Result<std::vector<CollapseJob>> prepare_collapses(const std::shared_ptr<const ExrFile>& file,
+Result<std::vector<CollapseJob>> prepare_collapses(const std::shared_ptr<const SpectralImage>& file,
                                                    const CollapseRequest& request,
                                                    const TextLoader& load_text) {
     OSIO_TRY(const auto requests, requests_by_light(request));
@@ -86,4 +87,4 @@ Result<std::vector<CollapseJob>> prepare_collapses(const std::shared_ptr<const E
     return jobs;
 }
 
-}  // namespace osio::exr
+}  // namespace osio::image

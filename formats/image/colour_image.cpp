@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <formats/exr/collapse_job.h>
-#include <formats/exr/colour_image.h>
 #include <formats/exr/output_header.h>
+#include <formats/image/collapse_job.h>
+#include <formats/image/colour_image.h>
+#include <formats/image/open_image.h>
 
 #include <osio/base/text.h>
 
@@ -11,7 +12,7 @@
 #include <algorithm>
 #include <array>
 
-namespace osio::exr {
+namespace osio::image {
 
 namespace {
 
@@ -21,7 +22,7 @@ bool complete(const Channels& channels) {
     return channels[0] && channels[1] && channels[2];
 }
 
-Channels find_channels(const ExrPart& part, const std::array<std::string_view, 3>& names) {
+Channels find_channels(const Part& part, const std::array<std::string_view, 3>& names) {
     Channels out;
     for (std::size_t c = 0; c < 3; ++c)
         out[c] = part.layout.find_channel(names[c]);
@@ -31,13 +32,14 @@ Channels find_channels(const ExrPart& part, const std::array<std::string_view, 3
 constexpr std::array<std::string_view, 3> kRgb{"R", "G", "B"}, kXyz{"X", "Y", "Z"};
 
 /// What a header says of its R, G, B.
-Result<OutputSpace> stated_space(const ExrPart& part, std::vector<std::string>& warnings) {
-    const auto* const name = part.header.findTypedAttribute<Imf::StringAttribute>(attribute::kColorSpace);
+Result<OutputSpace> stated_space(const Part& part, std::vector<std::string>& warnings) {
+    const auto* const name =
+        part.header.findTypedAttribute<Imf::StringAttribute>(exr::attribute::kColorSpace);
     if (name != nullptr)
         if (auto known = find_output_space(name->value()); known && is_tristimulus(known->kind))
             return known;
     const auto* const stated =
-        part.header.findTypedAttribute<Imf::ChromaticitiesAttribute>(attribute::kChromaticities);
+        part.header.findTypedAttribute<Imf::ChromaticitiesAttribute>(exr::attribute::kChromaticities);
     if (stated == nullptr) {
         warnings.push_back((name == nullptr ? std::string("no oiio:ColorSpace or chromaticities")
                                             : "no chromaticities, and oiio:ColorSpace \"" + name->value() +
@@ -89,7 +91,7 @@ Result<void> understand(ColourImage& image, bool rgb) {
     return {};
 }
 
-Result<ColourImage> open_colour(std::shared_ptr<const ExrFile> file, const CollapseRequest& request) {
+Result<ColourImage> open_colour(std::shared_ptr<const SpectralImage> file, const CollapseRequest& request) {
     const std::string path = file->path();
     std::vector<std::size_t> parts;
     if (request.part.empty()) {
@@ -102,7 +104,7 @@ Result<ColourImage> open_colour(std::shared_ptr<const ExrFile> file, const Colla
         parts.push_back(*part);
     }
     for (const std::size_t part : parts) {
-        const ExrPart& header = file->parts()[part];
+        const Part& header = file->parts()[part];
         Channels channels = find_channels(header, kRgb);
         const bool rgb = complete(channels);
         if (!rgb)
@@ -123,13 +125,13 @@ Result<ColourImage> open_colour(std::shared_ptr<const ExrFile> file, const Colla
 }  // namespace
 
 Result<std::unique_ptr<BlockSource>> ColourImage::open_source() const {
-    return make_block_source(file, part_index, planes);
+    return file->make_block_source(part_index, planes, Grain::Block);
 }
 
 Result<ColourImage> open_colour_image(const std::string& path, const CollapseRequest& request,
                                       const TextLoader& load_text) {
-    OSIO_TRY(const auto file, ExrFile::open(path));
-    const bool spectral = std::any_of(file->parts().begin(), file->parts().end(), [](const ExrPart& part) {
+    OSIO_TRY(const auto file, open_image(path));
+    const bool spectral = std::any_of(file->parts().begin(), file->parts().end(), [](const Part& part) {
         return std::any_of(part.layout.sets.begin(), part.layout.sets.end(),
                            [](const SpectralSet& set) { return !set.bands.empty(); });
     });
@@ -152,4 +154,4 @@ Result<ColourImage> open_colour_image(const std::string& path, const CollapseReq
     return out;
 }
 
-}  // namespace osio::exr
+}  // namespace osio::image

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <formats/image/spectral_image.h>
+
+#include <memory>
+#include <string>
+
+namespace osio::image {
+
+/// Opens a file of any format that we read. Its first bytes decide which, not its name. Io where the system
+/// refuses, NotSpectral where it is of no such format, Damaged and the format's other refusals.
+[[nodiscard]] Result<std::shared_ptr<const SpectralImage>> open_image(const std::string& path);
+
+}  // namespace osio::image
