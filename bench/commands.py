@@ -3,18 +3,22 @@
 """Whole commands, as a user types them, against what reaches the same pixels without this project.
 
     . build/stage/env.sh && bench/commands.py [--bands 81] [--size 1920x1080] [--rounds 5]
+        [--samples half|float] [--depth float|half] [--peer "TITLE=COMMAND {image} {out}"]...
 
 Makes a noisy spectral image, runs every command once in each round, and prints Markdown tables: the
 median wall time, its ratio to the first command in the same rounds, the peak memory, and the largest
-difference from numpy in double precision. Needs Debian's Python with OpenImageIO and numpy."""
+difference from numpy in double precision. Needs Debian's Python with OpenImageIO and numpy. Peers are
+other programs that make RGB of a spectral image, whichever are at hand; their pixels are not compared."""
 
 import argparse
 import json
 import os
+import shlex
 import statistics
 import subprocess
 import sys
 import tempfile
+import time
 
 import numpy as np
 import OpenImageIO as oiio
@@ -34,10 +38,10 @@ sink.close()
 """
 
 
-def make_image(path, wavelengths, width, height):
-    """A noisy picture of smooth spectra, half floats, zip: what a camera or a path tracer leaves."""
+def make_image(path, wavelengths, width, height, samples=oiio.HALF):
+    """A noisy picture of smooth spectra, zip: what a camera or a path tracer leaves."""
     random = np.random.default_rng(1)
-    spec = oiio.ImageSpec(width, height, len(wavelengths), oiio.HALF)
+    spec = oiio.ImageSpec(width, height, len(wavelengths), samples)
     spec.channelnames = tuple("T." + f"{nm:g}".replace(".", ",") + "nm" for nm in wavelengths)
     spec.attribute("compression", "zip")
     sink = oiio.ImageOutput.create(path)
@@ -90,11 +94,26 @@ def pixels_of(path):
     return source.read_image(0, 0, 0, 3, oiio.FLOAT).astype(np.float64)
 
 
+def opening_ms(name, times=201):
+    """Median time to open an image by a plugin that is loaded."""
+    taken = []
+    for _ in range(times):
+        started = time.perf_counter()
+        source = oiio.ImageInput.open(name)
+        taken.append(1000 * (time.perf_counter() - started))
+        assert source, oiio.geterror()
+        source.close()
+    return statistics.median(taken)
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     arguments.add_argument("--bands", type=int, default=81)
     arguments.add_argument("--size", default="1920x1080")
     arguments.add_argument("--rounds", type=int, default=5)
+    arguments.add_argument("--samples", choices=("half", "float"), default="half")
+    arguments.add_argument("--depth", choices=("float", "half"), default="float")
+    arguments.add_argument("--peer", action="append", default=[])
     options = arguments.parse_args()
     width, height = map(int, options.size.split("x"))
 
@@ -102,7 +121,7 @@ def main():
         shot = os.path.join(folder, "shot.exr")
         plan_file = os.path.join(folder, "plan.json")
         script = os.path.join(folder, "by_numpy.py")
-        make_image(shot, np.linspace(380, 780, options.bands), width, height)
+        make_image(shot, np.linspace(380, 780, options.bands), width, height, getattr(oiio, options.samples.upper()))
         with open(script, "w") as file:
             file.write(NUMPY_SCRIPT)
         words = ["--to", "lin_rec709", "--illuminant", "D65"]
@@ -123,21 +142,28 @@ def main():
         by_hand += ["--pop", "--chappend:n=3"]
         out = {name: os.path.join(folder, f"{name}.exr") for name in ("tool", "plugin", "hand", "numpy")}
         query = f"{shot}?to=lin_rec709&illuminant=D65"
-        float_zip = ["-d", "float", "--compression", "zip", "-o"]
+        float_zip = ["-d", options.depth, "--compression", "zip", "-o"]
+        words += ["-d", options.depth]
         commands = {
             "tool": ("`osiotool collapse`", ["osiotool", "collapse", shot, out["tool"], *words, "--quiet"]),
             "plugin": ("`oiiotool \"shot.exr?to=…\"`, this plugin", ["oiiotool", query, *float_zip, out["plugin"]]),
             "hand": ("`oiiotool --chsum` three times, weights typed", [*by_hand, *float_zip, out["hand"]]),
             "numpy": ("Python: read, matrix product, write", ["/usr/bin/python3", script, shot, plan_file, out["numpy"]]),
         }
+        if options.depth != "float":
+            del commands["numpy"]
+        for i, peer in enumerate(options.peer):
+            title, command = peer.split("=", 1)
+            made = os.path.join(folder, f"peer{i}.exr")
+            commands[made] = (title, shlex.split(command.format(image=shot, out=made)))
         measured = measure(commands, options.rounds)
-        print(f"{options.bands} bands, {options.size}, half, zip, "
+        print(f"{options.bands} bands, {options.size}, {options.samples}, zip, output {options.depth}, "
               f"{os.path.getsize(shot) / 1e6:.0f} MB; {os.cpu_count()} cores; medians of {options.rounds}:\n")
         print("| command | s | ratio | peak MB | largest error |")
         print("|---|---|---|---|---|")
         for name, row in measured.items():
-            error = np.abs(pixels_of(out[name]) - expected).max()
-            print(f"| {row} | {error:.1e} |")
+            error = f"{np.abs(pixels_of(out[name]) - expected).max():.1e}" if name in out else "-"
+            print(f"| {row} | {error} |")
 
         print("\n| command | s | ratio | peak MB |")
         print("|---|---|---|---|")
@@ -163,6 +189,14 @@ def main():
                    "iinfo": ("`iinfo`", ["iinfo", shot])}
         for row in measure(headers, options.rounds).values():
             print(f"| {row} |")
+
+        small = os.path.join(folder, "small.exr")
+        make_image(small, np.linspace(380, 780, options.bands), 8, 8)
+        print("\n| open() in a host, plugin loaded | ms |")
+        print("|---|---|")
+        for title, name in (("8x8, collapsed", f"{small}?to=lin_rec709&illuminant=D65"), ("8x8, bands", f"{small}?to=raw"),
+                            ("8x8, OpenImageIO's own reader", small), (f"{options.size}, collapsed", query)):
+            print(f"| {title} | {opening_ms(name):.2f} |")
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import tempfile
 import unittest
 
@@ -79,6 +80,13 @@ class OsioCase(unittest.TestCase):
         self.assertEqual(result.returncode, 0,
                          f"{' '.join(map(str, command))}\n{result.stdout}{result.stderr}")
         return result.stdout
+
+    def peak_mb(self, *command):
+        """Peak resident memory of a program that must succeed. A process starts with the peak of the one that
+        forked it: a small one in between."""
+        launcher = ("import resource, subprocess, sys; status = subprocess.call(sys.argv[1:]); "
+                    "print(resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1000); sys.exit(status)")
+        return float(self.check(sys.executable, "-c", launcher, *command).splitlines()[-1])
 
     def osiotool(self, *arguments, code=0, **options):
         result = self.run_program(OSIOTOOL, *arguments, **options)

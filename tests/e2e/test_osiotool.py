@@ -255,6 +255,20 @@ class Collapse(OsioCase):
         self.assertIn("note: 1 of 35 pixels hold NaN", text)
         self.assertIn("note: 3 samples beyond +-65504 were written as +-65504", text)
 
+    def test_memory_does_not_grow_with_the_image(self):
+        if "san" in os.environ.get("LD_PRELOAD", ""):
+            self.skipTest("a sanitizer has memory of its own")
+        width, workers = 480, 2
+        for compression, lines, types in (("zip", 16, HALF), ("none", 1, FLOAT), ("piz", 32, HALF)):
+            chunk_mb = width * lines * len(GRID) * (2 if types == HALF else 4) / 1e6
+            bound = 24 + workers * 3 * chunk_mb
+            for rows in (64, 3072):
+                spectra = np.linspace(0, 1, rows * width, dtype=np.float32).reshape(rows, width)
+                self.write_exr("big.exr", {f"T.{nm}nm": spectra for nm in GRID}, types=types, compression=compression)
+                peak = self.peak_mb(OSIOTOOL, "collapse", "big.exr", "o.exr", *TO_RGB, "-d", "half", "--threads", workers)
+                print(f"{compression}, {rows} rows: {peak:.1f} MB, at most {bound:.1f}")
+                self.assertLess(peak, bound, (compression, rows))
+
     def test_quiet_is_quiet_and_json_is_json(self):
         quiet = self.osiotool("collapse", "a.exr", "o.exr", *TO_RGB, "--quiet")
         self.assertEqual((quiet.stdout, quiet.stderr), ("", ""))
