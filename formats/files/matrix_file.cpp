@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <formats/files/checked_file.h>
 #include <formats/files/matrix_file.h>
-#include <formats/files/replacement_file.h>
+#include <formats/files/text_file.h>
 
 #include <osio/base/fingerprint.h>
 #include <osio/base/text.h>
@@ -101,12 +100,7 @@ Result<std::string> matrix_file_text(const BakedMatrix& baked, const std::string
 
 Result<void> write_matrix_file(const BakedMatrix& baked, const std::string& path, const CubeDomain& domain) {
     OSIO_TRY(const std::string text, matrix_file_text(baked, path, domain));
-    OSIO_TRY(ReplacementFile file, ReplacementFile::create(path));
-    CheckedFile out(file.path());
-    out.write(text.data(), text.size());
-    if (out.close() != 0)
-        return fail(ErrorCode::Io, out.failure(), path);
-    return file.commit();
+    return write_text(path, text);
 }
 
 }  // namespace osio::files

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <formats/files/checked_file.h>
+#include <formats/files/replacement_file.h>
 #include <formats/files/text_file.h>
 
 #include <cerrno>
@@ -28,6 +30,15 @@ Result<std::string> read_text(const std::string& path) {
     if (in.bad())
         return fail(ErrorCode::Io, "cannot be read", path);
     return text;
+}
+
+Result<void> write_text(const std::string& path, std::string_view text) {
+    OSIO_TRY(ReplacementFile file, ReplacementFile::create(path));
+    CheckedFile out(file.path());
+    out.write(text.data(), text.size());
+    if (out.close() != 0)
+        return fail(ErrorCode::Io, out.failure(), path);
+    return file.commit();
 }
 
 std::string seen_from(const std::string& folder, std::string_view path) {

@@ -15,6 +15,10 @@ inline constexpr std::size_t kMostTextBytes = std::size_t{1} << 24;
 /// The whole of a text file. Io where the system refuses or the file exceeds kMostTextBytes.
 [[nodiscard]] Result<std::string> read_text(const std::string& path);
 
+/// Makes a text file, or puts it in an old one's place when it is complete. Io where the system refuses;
+/// the old file is then as it was.
+[[nodiscard]] Result<void> write_text(const std::string& path, std::string_view text);
+
 /// `path` as seen from `folder`: absolute paths stay, an empty folder is the current one.
 [[nodiscard]] std::string seen_from(const std::string& folder, std::string_view path);
 

@@ -82,6 +82,15 @@ struct BakeOptions {
     bool json = false;
 };
 
+struct SpectrumOptions {
+    std::string input;
+    std::vector<std::string> place;  ///< X and Y, or WxH+X+Y; empty: all pixels
+    std::string part;
+    std::string set;
+    std::string output;  ///< .csv or .svg; empty: CSV on stdout
+    bool range = false;  ///< CSV has minimum and maximum too
+};
+
 struct ListOptions {
     std::string what;    ///< illuminants, observers, spaces, bases
     std::string config;  ///< of spaces: OCIO config to list too; empty: the environment's
@@ -95,6 +104,7 @@ struct ListOptions {
 [[nodiscard]] Result<ExitCode> run_difference(const DifferenceOptions& options);
 [[nodiscard]] Result<ExitCode> run_photometry(const PhotometryOptions& options);
 [[nodiscard]] Result<ExitCode> run_bake(const BakeOptions& options);
+[[nodiscard]] Result<ExitCode> run_spectrum(const SpectrumOptions& options);
 [[nodiscard]] Result<ExitCode> run_list(const ListOptions& options);
 [[nodiscard]] Result<ExitCode> run_doctor();
 

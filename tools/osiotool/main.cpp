@@ -61,6 +61,7 @@ class CommandLine {
         add_difference();
         add_photometry();
         add_bake();
+        add_spectrum();
         add_list();
         add("doctor", "tell whether OpenImageIO sees our plugins, and if not, why",
             [] { return run_doctor(); });
@@ -208,6 +209,21 @@ class CommandLine {
         command->add_flag("--json", m_bake.json, "as JSON");
     }
 
+    void add_spectrum() {
+        CLI::App* const command = add("spectrum", "the spectrum of a pixel or region, as a table or a plot",
+                                      [this] { return run_spectrum(m_spectrum); });
+        command->add_option("input", m_spectrum.input, "spectral image")->required();
+        command->add_option("place", m_spectrum.place, "X Y, or WxH+X+Y; none: all pixels")
+            ->expected(0, 2)
+            ->type_name("X Y|REGION");
+        command->add_option("--part", m_spectrum.part, "part of a multi-part file")->type_name("N|NAME");
+        command->add_option("--set", m_spectrum.set, "which bands, where there are several sets")
+            ->type_name("[ROOT.]S0..S3|T");
+        command->add_option("-o", m_spectrum.output, "OUT.csv or OUT.svg; default: a table on stdout")
+            ->type_name("OUT");
+        command->add_flag("--range", m_spectrum.range, "of a table: minimum and maximum of the region too");
+    }
+
     void add_list() {
         CLI::App* const command = add("list", "names that options take", [this] { return run_list(m_list); });
         command->add_option("what", m_list.what, "illuminants, observers, spaces or bases")->required();
@@ -249,6 +265,7 @@ class CommandLine {
     DifferenceOptions m_difference;
     PhotometryOptions m_photometry;
     BakeOptions m_bake;
+    SpectrumOptions m_spectrum;
     ListOptions m_list;
 };
 
