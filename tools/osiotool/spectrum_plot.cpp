@@ -60,14 +60,15 @@ std::string escaped(const std::string& text) {
 std::string grid(const Axis& x, const Axis& y) {
     std::string out;
     for (const double nm : x.ticks())
-        out += fmt::format("<line x1=\"{0:.2f}\" y1=\"{1}\" x2=\"{0:.2f}\" y2=\"{2}\"/>\n"
-                           "<text x=\"{0:.2f}\" y=\"{3}\" text-anchor=\"middle\">{4:g}</text>\n",
-                           x.at(nm), kTop, kHeight - kBottom, kHeight - kBottom + 18, nm);
-    for (const double value : y.ticks())
         out +=
-            fmt::format("<line x1=\"{1}\" y1=\"{0:.2f}\" x2=\"{2}\" y2=\"{0:.2f}\"/>\n"
-                        "<text x=\"{3}\" y=\"{0:.2f}\" dy=\"4\" text-anchor=\"end\">{4:.6g}</text>\n",
-                        y.at(value), kLeft, kWidth - kRight, kLeft - 8, std::abs(value) < 1e-12 ? 0 : value);
+            fmt::format("<line x1=\"{0:.2f}\" y1=\"{1}\" x2=\"{0:.2f}\" y2=\"{2}\"/>\n"
+                        "<text x=\"{0:.2f}\" y=\"{3}\" stroke=\"none\" text-anchor=\"middle\">{4:g}</text>\n",
+                        x.at(nm), kTop, kHeight - kBottom, kHeight - kBottom + 18, nm);
+    for (const double value : y.ticks())
+        out += fmt::format(
+            "<line x1=\"{1}\" y1=\"{0:.2f}\" x2=\"{2}\" y2=\"{0:.2f}\"/>\n"
+            "<text x=\"{3}\" y=\"{0:.2f}\" dy=\"4\" stroke=\"none\" text-anchor=\"end\">{4:.6g}</text>\n",
+            y.at(value), kLeft, kWidth - kRight, kLeft - 8, std::abs(value) < 1e-12 ? 0 : value);
     return "<g stroke=\"#ddd\" fill=\"#444\">\n" + out + "</g>\n";
 }
 
