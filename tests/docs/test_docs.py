@@ -148,7 +148,7 @@ class Reference(OsioCase):
         self.names(self.keys_of(self.osiotool_json("photometry", "radiance.exr")))
 
     def test_every_option(self):
-        for command in ("info", "collapse", "plan", "verify", "difference", "photometry", "bake", "spectrum", "list"):
+        for command in ("info", "collapse", "plan", "verify", "difference", "photometry", "bake", "weights", "spectrum", "list"):
             text = self.osiotool(command, "--help").stdout
             self.names(set(re.findall(r"^  --?([a-z][a-z-]*)", text, re.M)) - {"h"})
 

@@ -55,6 +55,10 @@ class HostModule {
     /// Refuses (Usage) a type that the format would silently store as another.
     [[nodiscard]] virtual Result<std::unique_ptr<HostSink>> open_sink(const HostImage& image) const = 0;
 
+    /// The names of an OpenEXR part's channels in the order in which OpenImageIO's own reader has them.
+    [[nodiscard]] virtual Result<std::vector<std::string>> channel_order(const std::string& path,
+                                                                         std::size_t part) const = 0;
+
     /// Looks whether the OpenImageIO of this machine sees our plugin in `plugin_folder`, and if not,
     /// why.
     [[nodiscard]] virtual std::vector<Finding> examine(const std::string& plugin_folder) const = 0;

@@ -82,6 +82,13 @@ struct BakeOptions {
     bool json = false;
 };
 
+struct WeightsOptions {
+    std::string input;
+    RequestWords request;
+    bool oiiotool = false;           ///< a command instead of a table
+    std::string output = "out.exr";  ///< of that command
+};
+
 struct SpectrumOptions {
     std::string input;
     std::vector<std::string> place;  ///< X and Y, or WxH+X+Y; empty: all pixels
@@ -104,6 +111,7 @@ struct ListOptions {
 [[nodiscard]] Result<ExitCode> run_difference(const DifferenceOptions& options);
 [[nodiscard]] Result<ExitCode> run_photometry(const PhotometryOptions& options);
 [[nodiscard]] Result<ExitCode> run_bake(const BakeOptions& options);
+[[nodiscard]] Result<ExitCode> run_weights(const WeightsOptions& options);
 [[nodiscard]] Result<ExitCode> run_spectrum(const SpectrumOptions& options);
 [[nodiscard]] Result<ExitCode> run_list(const ListOptions& options);
 [[nodiscard]] Result<ExitCode> run_doctor();

@@ -61,6 +61,7 @@ class CommandLine {
         add_difference();
         add_photometry();
         add_bake();
+        add_weights();
         add_spectrum();
         add_list();
         add("doctor", "tell whether OpenImageIO sees our plugins, and if not, why",
@@ -209,6 +210,17 @@ class CommandLine {
         command->add_flag("--json", m_bake.json, "as JSON");
     }
 
+    void add_weights() {
+        CLI::App* const command =
+            add("weights", "a collapse as a table, or as a command that needs no plugin",
+                [this] { return run_weights(m_weights); });
+        command->add_option("input", m_weights.input, "spectral OpenEXR file")->required();
+        add_request_options(*command, m_weights.request, {"names"});
+        command->add_flag("--oiiotool", m_weights.oiiotool, "the command of a stock oiiotool");
+        command->add_option("-o", m_weights.output, "output of that command; default out.exr")
+            ->type_name("OUT");
+    }
+
     void add_spectrum() {
         CLI::App* const command = add("spectrum", "the spectrum of a pixel or region, as a table or a plot",
                                       [this] { return run_spectrum(m_spectrum); });
@@ -265,6 +277,7 @@ class CommandLine {
     DifferenceOptions m_difference;
     PhotometryOptions m_photometry;
     BakeOptions m_bake;
+    WeightsOptions m_weights;
     SpectrumOptions m_spectrum;
     ListOptions m_list;
 };

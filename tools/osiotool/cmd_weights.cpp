@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tools/osiotool/commands.h>
+#include <tools/osiotool/host_loader.h>
+#include <tools/osiotool/request_words.h>
+
+#include <formats/exr/exr_file.h>
+#include <formats/files/text_file.h>
+#include <formats/image/collapse_job.h>
+
+#include <osio/base/text.h>
+#include <osio/collapse/pixel_stage.h>
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace osio::tool {
+
+namespace {
+
+/// Something comes after the sums that a matrix cannot say.
+bool goes_on(const CollapsePlan& plan) {
+    return PixelStage(plan.space, plan.white).needed();
+}
+
+std::string weights_csv(const image::CollapseJob& job) {
+    const CollapsePlan& plan = job.plan;
+    std::string out = "nm";
+    for (const std::string& name : plan.weighed())
+        out += "," + name;
+    out += "\n";
+    for (std::size_t band = 0; band < plan.bands.size(); ++band) {
+        out += format_double(plan.bands[band].wavelength_nm);
+        for (std::size_t row = 0; row < plan.weights.rows(); ++row)
+            out += "," + format_double(plan.weights.at(row, band));
+        out += "\n";
+    }
+    return out;
+}
+
+/// A word of a command for a shell.
+std::string quoted(const std::string& word) {
+    std::string out = "'";
+    for (const char c : word)
+        out += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return out + "'";
+}
+
+/// oiiotool's sums: --chsum leaves one channel of all, in float, and each is put beside the others.
+Result<std::string> oiiotool_command(const image::CollapseJob& job, const std::string& output) {
+    const CollapsePlan& plan = job.plan;
+    if (goes_on(plan))
+        return fail(ErrorCode::Usage,
+                    "to=" + plan.space.id +
+                        " is more than sums over bands, which are all that "
+                        "oiiotool's --chsum has; name a linear space and convert its result");
+    OSIO_TRY(const host::HostModule* const module, load_host_module());
+    OSIO_TRY(const auto order, module->channel_order(job.file->path(), job.part_index));
+    std::map<std::string, std::size_t> bands;
+    for (std::size_t band = 0; band < plan.bands.size(); ++band)
+        bands[job.part().layout.channel_names[plan.bands[band].channel]] = band;
+    std::string out = "oiiotool " + quoted(job.file->path());
+    if (job.file->parts().size() > 1)
+        out += fmt::format(" --subimage {}", job.part_index);
+    std::size_t found = 0;
+    for (std::size_t row = 0; row < plan.weights.rows(); ++row) {
+        std::string weights;
+        for (const std::string& name : order) {
+            const auto band = bands.find(name);
+            found += band != bands.end();
+            weights += (weights.empty() ? "" : ",") +
+                       (band == bands.end() ? "0" : format_double(plan.weights.at(row, band->second)));
+        }
+        out += fmt::format(" \\\n  --dup --chsum:weight={} --swap", weights);
+    }
+    if (found != plan.weights.rows() * plan.bands.size())
+        return fail(ErrorCode::Unsupported, "OpenImageIO's own reader calls some of its channels otherwise",
+                    job.file->path());
+    std::string names;
+    for (const std::string& name : plan.channel_names())
+        names += (names.empty() ? "" : ",") + name;
+    out += " \\\n  --pop";
+    if (plan.weights.rows() > 1)
+        out += fmt::format(" --chappend:n={}", plan.weights.rows());
+    return out + fmt::format(" --chnames {} -d float -o {}\n", names, quoted(output));
+}
+
+}  // namespace
+
+Result<ExitCode> run_weights(const WeightsOptions& options) {
+    OSIO_TRY(const CollapseRequest request, request_of(options.request));
+    OSIO_TRY(const auto job, image::open_collapse(options.input, request, files::text_loader({})));
+    for (const std::string& warning : job.warnings)
+        fmt::print(stderr, "osiotool: warning: {}\n", warning);
+    if (options.oiiotool) {
+        OSIO_TRY(const std::string command, oiiotool_command(job, options.output));
+        fmt::print("{}", command);
+        return kDone;
+    }
+    if (goes_on(job.plan))
+        fmt::print(stderr, "osiotool: note: these are the sums that {} is then made of\n", job.plan.space.id);
+    fmt::print("{}", weights_csv(job));
+    return kDone;
+}
+
+}  // namespace osio::tool
