@@ -23,7 +23,7 @@ LIBRARIES = {
     r"tl/": r"core/osio/base/result\.h",
     r"hwy/": r"core/osio/collapse/kernel_simd\.cpp|formats/exr/zip_simd\.cpp",
     r"libdeflate\.h": r"formats/exr/zip_codec\.cpp",
-    r"OpenEXR/|Imath/": r"formats/exr/|formats/image/|plugins/|tools/host_module/|examples/",
+    r"OpenEXR/|Imath/": r"formats/(exr|envi|image)/|plugins/|tools/host_module/|examples/",
     r"OpenImageIO/": r"plugins/|tools/host_module/",
     r"OpenColorIO/": r"plugins/ocio/",
     r"fmt/": r"tools/osiotool/",

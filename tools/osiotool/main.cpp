@@ -99,14 +99,14 @@ class CommandLine {
     void add_info() {
         CLI::App* const command = add("info", "what a file holds: parts, bands, units, warnings",
                                       [this] { return run_info(m_info); });
-        command->add_option("file", m_info.input, "OpenEXR file")->required();
+        command->add_option("file", m_info.input, "OpenEXR or ENVI file")->required();
         command->add_flag("--json", m_info.json, "as JSON");
     }
 
     void add_collapse() {
         CLI::App* const command =
             add("collapse", "bands to a colour image", [this] { return run_collapse(m_collapse); });
-        command->add_option("input", m_collapse.input, "spectral OpenEXR file")->required();
+        command->add_option("input", m_collapse.input, "spectral OpenEXR or ENVI file")->required();
         command->add_option("output", m_collapse.output, "image; .exr, .png, .tif, ...")->required();
         add_request_options(*command, m_collapse.request);
         command->add_option("-d", m_collapse.depth, "type of the output's samples")
@@ -132,7 +132,7 @@ class CommandLine {
     void add_plan() {
         CLI::App* const command = add("plan", "what a collapse would do: recipe, weights, provenance",
                                       [this] { return run_plan(m_plan); });
-        command->add_option("input", m_plan.input, "spectral OpenEXR file")->required();
+        command->add_option("input", m_plan.input, "spectral OpenEXR or ENVI file")->required();
         add_request_options(*command, m_plan.request);
         command->add_flag("--json", m_plan.json, "as JSON");
     }
@@ -148,7 +148,7 @@ class CommandLine {
     void add_difference() {
         CLI::App* const command = add("difference", "colour difference CIEDE2000 between two images",
                                       [this] { return run_difference(m_difference); });
-        command->add_option("a", m_difference.a, "spectral, RGB or XYZ OpenEXR file")->required();
+        command->add_option("a", m_difference.a, "spectral, RGB or XYZ OpenEXR file, or ENVI")->required();
         command->add_option("b", m_difference.b, "the same")->required();
         add_request_options(*command, m_difference.request,
                             {"to", "config", "names", "adapt", "display", "scale"});
@@ -170,7 +170,7 @@ class CommandLine {
     void add_photometry() {
         CLI::App* const command = add("photometry", "luminance of a radiance image, or efficacy of a light",
                                       [this] { return run_photometry(m_photometry); });
-        command->add_option("input", m_photometry.input, "spectral OpenEXR file; none: --illuminant");
+        command->add_option("input", m_photometry.input, "spectral OpenEXR or ENVI file; none: --illuminant");
         command->add_option("output", m_photometry.output, "luminance image, .exr");
         add_request_options(
             *command, m_photometry.request,

@@ -56,7 +56,9 @@ Json part_json(const image::Part& part) {
             {"height", part.data_window.height()},
             {"data_window", window_json(part.data_window)},
             {"display_window", window_json(part.display_window)},
-            {"storage", part.tiled ? "tiles" : "scanlines"},
+            {"storage", !part.storage.empty() ? part.storage
+                        : part.tiled          ? "tiles"
+                                              : "scanlines"},
             {"deep", part.deep},
             {"compression", part.compression},
             {"channels", part.channels.size()},
@@ -292,7 +294,7 @@ std::string info_json(const image::SpectralImage& file) {
     Json parts = Json::array();
     for (const image::Part& part : file.parts())
         parts.push_back(part_json(part));
-    return dump({{"file", file.path()}, {"parts", std::move(parts)}});
+    return dump({{"file", file.path()}, {"format", file.format()}, {"parts", std::move(parts)}});
 }
 
 std::string plans_json(const std::vector<image::CollapseJob>& jobs) {
