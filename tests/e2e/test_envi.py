@@ -4,6 +4,7 @@
 import os
 
 import numpy as np
+import OpenImageIO as oiio
 
 from osio_case import OsioCase, oracle_xyz, stack
 
@@ -107,3 +108,83 @@ class Info(EnviCase):
         with open(self.path("complex.hdr"), "w") as file:
             file.write(text.replace("data type = 4", "data type = 6"))
         self.assertIn("complex", self.osiotool("info", "complex.hdr", code=1).stderr)
+
+
+class Plugin(EnviCase):
+    """Stock OpenImageIO finds the reader by the file's content."""
+
+    def native(self, name):
+        """(spec, pixels in the file's own type)."""
+        image = oiio.ImageInput.open(self.path(name))
+        self.assertIsNotNone(image, oiio.geterror())
+        spec = image.spec()
+        pixels = image.read_image(0, 0, 0, spec.nchannels, spec.format)
+        self.assertIsNotNone(pixels, image.geterror())
+        return spec, pixels
+
+    def test_numbers_are_those_of_numpy_bit_for_bit(self):
+        random = np.random.default_rng(3)
+        for code, kind in TYPES.items():
+            if code in (14, 15):
+                continue  # OpenImageIO's Python has no such arrays: test_64_bit_integers
+            for interleave in ORDER:
+                for big in (False, True):
+                    cube = random.integers(0, 256, (5, 7, 4, np.dtype(kind).itemsize), np.uint8).view(kind)[..., 0]
+                    source = self.write_envi("cube", cube, code, interleave, big, 3, self.wavelengths(NM[:4]))
+                    spec, found = self.native(source)
+                    self.assertEqual(found.tobytes(), cube.tobytes(), (code, interleave, big))
+                    self.assertEqual(list(spec.channelnames), ["T.400nm", "T.410nm", "T.420nm", "T.430nm"])
+                    self.assertEqual(self.format_of(source), "envi")
+
+    def test_64_bit_integers(self):
+        for code in (14, 15):
+            cube = np.arange(5 * 7 * 2).reshape(5, 7, 2) * 2**20
+            source = self.write_envi("cube", cube, code, keys=self.wavelengths(NM[:2]))
+            self.check("oiiotool", source, "-d", "double", "-o", "cube.tif")
+            _, found = self.read("cube.tif")
+            most = 2.0**63 - 1 if code == 14 else 2.0**64 - 1
+            np.testing.assert_allclose(found, cube / most, rtol=1e-6)
+
+    def test_every_door_of_the_host(self):
+        cube = self.cube() * 4000
+        source = self.write_envi("cube", cube, 12, keys=[*self.wavelengths([450.5, *NM[1:]]),
+                                                        "reflectance scale factor = 4000", "sensor type = {AVIRIS}"])
+        for name in (source, "cube.img"):
+            self.assertIn("31 channel, uint16 envi", self.check("iinfo", name))
+        listing = self.check("oiiotool", "--info", "-v", source)
+        self.assertIn("T.450.5nm", listing)
+        self.assertIn('envi:sensor type: "AVIRIS"', listing)
+        self.assertIn('envi:reflectance scale factor: "4000"', listing)
+        self.check("oiiotool", source, "--ch", "T.450.5nm,T.550nm", "-o", "two.tif")
+        self.assertEqual(self.read("two.tif")[0].nchannels, 2)
+
+    def test_bands_come_in_order_of_wavelength(self):
+        cube = self.cube(bands=3)
+        source = self.write_envi("cube", cube, keys=self.wavelengths([650, 450, 550]))
+        spec, found = self.native(source)
+        self.assertEqual(list(spec.channelnames), ["T.450nm", "T.550nm", "T.650nm"])
+        np.testing.assert_array_equal(found, cube[..., [1, 2, 0]])
+
+    def test_other_files_called_hdr_keep_their_reader(self):
+        self.check("oiiotool", "--create", "8x6", "3", "-o", "radiance.hdr")
+        self.assertEqual(self.format_of("radiance.hdr"), "hdr")
+        self.write_table("esri.hdr", "NROWS 6", "NCOLS 8")
+        self.assertNotEqual(self.run_program("iinfo", "esri.hdr").returncode, 0)
+        self.write_envi("short", self.cube(), keys=self.wavelengths())
+        os.truncate(self.path("short.img"), 100)
+        self.assertNotEqual(self.run_program("oiiotool", "short.hdr", "-o", "out.tif").returncode, 0)
+
+    def test_a_damaged_cube_says_so_under_its_own_ending(self):
+        self.write_envi("cube", self.cube(), keys=self.wavelengths())
+        os.rename(self.path("cube.img"), self.path("cube.bil"))
+        self.assertIn("31 channel, float envi", self.check("iinfo", "cube.bil"))
+        os.truncate(self.path("cube.bil"), 100)
+        result = self.run_program("oiiotool", "cube.bil", "-o", "out.tif")
+        self.assertIn("has 100 bytes, the header promises 6696", result.stdout + result.stderr)
+
+    def test_samples_come_by_a_query(self):
+        counts = np.round(self.cube() * 10000)
+        source = self.write_envi("cube", counts, 12, keys=[*self.wavelengths(), "reflectance scale factor = 10000"])
+        spec, found = self.read(f"{self.path(source)}?to=raw")
+        self.assertEqual(spec.channelnames[0], "T.400nm")
+        np.testing.assert_array_equal(found, (counts / 10000).astype(np.float32))
