@@ -46,19 +46,6 @@ bool ends_in_hdr(const std::string& path) {
     return to_lower(path).ends_with(".hdr");
 }
 
-/// The data files that lie beside a header, in the order in which they are believed.
-std::vector<std::string> data_files_of(const std::string& header) {
-    const std::string base = ends_in_hdr(header) ? header.substr(0, header.size() - 4) : header;
-    std::vector<std::string> out;
-    for (const std::string_view ending : kDataEndings)
-        for (const std::string& spelt : {std::string(ending), to_upper(ending)}) {
-            const std::string path = base + spelt;
-            if (path != header && is_regular(path) && (out.empty() || out.back() != path))
-                out.push_back(path);
-        }
-    return out;
-}
-
 Result<std::string> choose_data(const std::string& path, EnviHeader& header) {
     const auto found = data_files_of(path);
     if (found.empty())
@@ -119,11 +106,9 @@ void insert_attributes(const EnviHeader& header, Imf::Header& out) {
                     header.units.empty() ? std::string(kWrittenEmissiveUnits) : header.units, out);
     if (const std::string fwhm = fwhm_text(header); !fwhm.empty())
         insert_text(attribute::kFwhm, fwhm, out);
-    for (const Field& field : header.fields.fields) {
-        const std::string name = std::string(kAttributePrefix) + field.key;
-        if (!is_structural(field.key) && name.size() <= exr::kMostNameBytes)
-            insert_text(name, field.value, out);
-    }
+    for (const Field& field : header.fields.fields)
+        if (!is_structural(field.key))
+            insert_field(field, out);
 }
 
 std::string storage_of(const EnviHeader& header) {
@@ -160,6 +145,18 @@ image::Part understand(const EnviHeader& header) {
 }
 
 }  // namespace
+
+std::vector<std::string> data_files_of(const std::string& header) {
+    const std::string base = ends_in_hdr(header) ? header.substr(0, header.size() - 4) : header;
+    std::vector<std::string> out;
+    for (const std::string_view ending : kDataEndings)
+        for (const std::string& spelt : {std::string(ending), to_upper(ending)}) {
+            const std::string path = base + spelt;
+            if (path != header && is_regular(path) && (out.empty() || out.back() != path))
+                out.push_back(path);
+        }
+    return out;
+}
 
 Result<std::shared_ptr<const EnviFile>> EnviFile::open(const std::string& path) {
     const std::string header_path = find_header(path).value_or(path);

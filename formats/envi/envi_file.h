@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <formats/envi/attribute_fields.h>
 #include <formats/envi/envi_header.h>
 #include <formats/files/raw_file.h>
 #include <formats/image/spectral_image.h>
@@ -10,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace osio::envi {
 
@@ -51,7 +53,7 @@ class EnviFile final : public image::SpectralImage, public std::enable_shared_fr
 /// beside it (`cube.dat.hdr`, `cube.hdr`). Nothing where there is none. Never an error.
 [[nodiscard]] std::optional<std::string> find_header(const std::string& path);
 
-/// Prefix of the names under which a header's other fields are attributes: `envi:sensor type`.
-inline constexpr std::string_view kAttributePrefix = "envi:";
+/// The data files that lie beside a header, in the order in which they are believed.
+[[nodiscard]] std::vector<std::string> data_files_of(const std::string& header);
 
 }  // namespace osio::envi

@@ -2,6 +2,7 @@
 #include <formats/envi/spectral_keys.h>
 
 #include <osio/base/text.h>
+#include <osio/layout/spectral_metadata.h>
 #include <osio/spectra/wavelength.h>
 
 #include <algorithm>
@@ -165,6 +166,15 @@ Result<void> read_bad_bands(EnviHeader& header) {
 constexpr std::array<std::string_view, 6> kUnitKeys{"data units",    "data unit",      "units",
                                                     "z plot titles", "data type name", "description"};
 
+/// The words around "radiance" are its unit; our own files carry it apart, as the layout's attribute.
+void read_units(const Field& field, EnviHeader& header) {
+    if (!iequals(trim(field.value), "radiance"))
+        header.units = trim(field.value);
+    else if (header.fields.find("exr string emissiveunits") == nullptr)
+        header.warnings.push_back("\"" + field.label + "\" name no unit: radiance is taken as " +
+                                  std::string(kWrittenEmissiveUnits) + " per nm");
+}
+
 void read_quantity(EnviHeader& header) {
     if (header.fields.find("reflectance scale factor") != nullptr)
         return;
@@ -177,7 +187,7 @@ void read_quantity(EnviHeader& header) {
             continue;
         header.quantity = radiance ? Quantity::Radiance : Quantity::Reflectance;
         if (radiance)
-            header.units = trim(field->value);
+            read_units(*field, header);
         return;
     }
     header.warnings.emplace_back(

@@ -185,7 +185,7 @@ TEST(EnviFile, ChannelsAreNamedByTheLayout) {
     ASSERT_TRUE(part.metadata.fwhm);
     EXPECT_EQ(part.metadata.fwhm->values, (std::vector<double>{5, 5, 5, 6, 7}));
     EXPECT_EQ(image::text_attributes(part.header).at("envi:sensor type"), "AVIRIS");
-    EXPECT_EQ(part.metadata.emissive_units, "Radiance");
+    EXPECT_EQ(part.metadata.emissive_units, std::string(kWrittenEmissiveUnits));
 }
 
 TEST(EnviFile, TheDataFileIsFoundBesideTheHeader) {

@@ -57,6 +57,7 @@ class CommandLine {
         add_info();
         add_collapse();
         add_plan();
+        add_convert();
         add_verify();
         add_difference();
         add_photometry();
@@ -135,6 +136,26 @@ class CommandLine {
         command->add_option("input", m_plan.input, "spectral OpenEXR or ENVI file")->required();
         add_request_options(*command, m_plan.request);
         command->add_flag("--json", m_plan.json, "as JSON");
+    }
+
+    void add_convert() {
+        CLI::App* const command = add("convert", "bands from one format to another, as they are",
+                                      [this] { return run_convert(m_convert); });
+        command->add_option("input", m_convert.input, "spectral OpenEXR or ENVI file")->required();
+        command->add_option("output", m_convert.output, ".exr, .spexr, or .hdr for ENVI")->required();
+        const auto word = [command](const std::string& name, std::string& value, const std::string& type,
+                                    const std::string& help) {
+            command->add_option(name, value, help)->type_name(type);
+        };
+        word("--part", m_convert.part, "PART", "number from 0, or name");
+        word("--set", m_convert.set, "SET", "where a part holds several");
+        word("--bands", m_convert.bands, "400-700nm", "bands outside are left out");
+        word("-d", m_convert.depth, "half|float", "of .exr; default: as they are");
+        word("--compression", m_convert.compression, "C", "of .exr; default zip");
+        word("--interleave", m_convert.interleave, "bsq|bil|bip", "of .hdr; default bsq");
+        command->add_option("--threads", m_convert.threads, "default: one a processor")->type_name("N");
+        command->add_flag("--quiet", m_convert.quiet, "no summary, no progress");
+        command->add_flag("--json", m_convert.json, "a report on stdout as JSON");
     }
 
     void add_verify() {
@@ -245,6 +266,7 @@ class CommandLine {
     InfoOptions m_info;
     CollapseOptions m_collapse;
     PlanOptions m_plan;
+    ConvertOptions m_convert;
     VerifyOptions m_verify;
     DifferenceOptions m_difference;
     PhotometryOptions m_photometry;

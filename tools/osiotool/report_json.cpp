@@ -290,6 +290,21 @@ std::string spaces_json(const ColourConfig* config) {
          {"config", {{"file", config->file()}, {"name", config->name()}, {"names", std::move(names)}}}});
 }
 
+std::string convert_json(const ConvertReport& report) {
+    const convert::Outcome& outcome = report.outcome;
+    return dump({{"input", report.input},
+                 {"output", outcome.output},
+                 {"data", outcome.data.empty() ? Json(nullptr) : Json(outcome.data)},
+                 {"width", outcome.width},
+                 {"height", outcome.height},
+                 {"bands", outcome.bands},
+                 {"types", outcome.types},
+                 {"lost", outcome.lost},
+                 {"clamped_samples", outcome.clamped_samples},
+                 {"seconds", report.seconds},
+                 {"warnings", outcome.warnings}});
+}
+
 std::string info_json(const image::SpectralImage& file) {
     Json parts = Json::array();
     for (const image::Part& part : file.parts())

@@ -184,6 +184,21 @@ std::string plan_text(const image::CollapseJob& job) {
     return out;
 }
 
+std::string convert_text(const ConvertReport& report) {
+    const convert::Outcome& outcome = report.outcome;
+    std::string out =
+        fmt::format("{}: {}x{} {}, {} bands, {:.2f} s\n", outcome.output, outcome.width, outcome.height,
+                    join(outcome.types, " and "), outcome.bands, report.seconds);
+    if (!outcome.data.empty())
+        out += fmt::format("data in {}\n", outcome.data);
+    for (const std::string& what : outcome.lost)
+        out += fmt::format("note: not in the output: {}\n", what);
+    if (outcome.clamped_samples > 0)
+        out +=
+            fmt::format("note: {} samples beyond +-65504 were written as +-65504\n", outcome.clamped_samples);
+    return out;
+}
+
 std::string bake_text(const BakedMatrix& baked) {
     std::string out;
     for (const std::string& line : baked.description())
