@@ -29,7 +29,7 @@ Result<void> expect(std::string_view what, std::int64_t found, std::int64_t expe
 
 }  // namespace
 
-Result<std::shared_ptr<const ChunkMap>> ChunkMap::load(RawFile file, const RawHeaders& headers,
+Result<std::shared_ptr<const ChunkMap>> ChunkMap::load(files::RawFile file, const RawHeaders& headers,
                                                        const std::vector<ExrPart>& parts,
                                                        const std::vector<std::uint64_t>& counts) {
     const std::shared_ptr<ChunkMap> map(new ChunkMap(std::move(file)));

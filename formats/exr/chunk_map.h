@@ -3,7 +3,7 @@
 
 #include <formats/exr/checksum.h>
 #include <formats/exr/exr_file.h>
-#include <formats/exr/raw_file.h>
+#include <formats/files/raw_file.h>
 #include <formats/exr/raw_header.h>
 
 #include <cstddef>
@@ -22,7 +22,7 @@ class ChunkMap {
     /// Reads the tables. `counts`: chunks of each part. Damaged where they do not fit the file or the
     /// windows, or where the header's own checksum differs.
     [[nodiscard]] static Result<std::shared_ptr<const ChunkMap>>
-    load(RawFile file, const RawHeaders& headers, const std::vector<ExrPart>& parts,
+    load(files::RawFile file, const RawHeaders& headers, const std::vector<ExrPart>& parts,
          const std::vector<std::uint64_t>& counts);
 
     /// Looks at one chunk of a flat part: inside the file, apart from others, with the coordinates that
@@ -60,7 +60,7 @@ class ChunkMap {
         bool tiled = false;
     };
 
-    explicit ChunkMap(RawFile file) : m_file(std::move(file)) {}
+    explicit ChunkMap(files::RawFile file) : m_file(std::move(file)) {}
 
     [[nodiscard]] Result<void> read_tables(std::uint64_t at, const std::vector<ExrPart>& parts,
                                            const std::vector<std::uint64_t>& counts);
@@ -69,7 +69,7 @@ class ChunkMap {
     [[nodiscard]] Result<void> check_header(std::size_t part, std::uint64_t chunk,
                                             std::string_view header) const;
 
-    RawFile m_file;
+    files::RawFile m_file;
     bool m_multi_part = false;
     std::vector<Part> m_parts;
     std::vector<std::uint64_t> m_sorted;  ///< all offsets, then the end of the file

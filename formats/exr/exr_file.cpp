@@ -132,7 +132,7 @@ ExrFile::~ExrFile() {
 Result<std::shared_ptr<const ExrFile>> ExrFile::open(const std::string& path) {
     OSIO_TRY(const std::uint64_t bytes, check_file(path));
     const std::shared_ptr<ExrFile> file(new ExrFile(path));
-    OSIO_TRY(RawFile raw, RawFile::open(path));
+    OSIO_TRY(files::RawFile raw, files::RawFile::open(path));
     std::string header_bytes;
     const auto headers = read_raw_headers(raw, header_bytes);
     if (!headers)

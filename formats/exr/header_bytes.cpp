@@ -13,7 +13,7 @@ constexpr std::uint64_t kFirstBytes = std::uint64_t{1} << 14;
 
 }  // namespace
 
-Result<RawHeaders> read_raw_headers(const RawFile& file, std::string& bytes) {
+Result<RawHeaders> read_raw_headers(const files::RawFile& file, std::string& bytes) {
     for (std::uint64_t count = kFirstBytes;; count *= 4) {
         if (count > 4 * kMostHeaderBytes)
             return fail(ErrorCode::Damaged, "its headers take more than " + std::to_string(kMostHeaderBytes) +

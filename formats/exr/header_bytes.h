@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <formats/exr/raw_file.h>
+#include <formats/files/raw_file.h>
 #include <formats/exr/raw_header.h>
 
 #include <string>
@@ -9,6 +9,6 @@
 namespace osio::exr {
 
 /// The headers of a file, read as far as they go and no further. They point into `bytes`.
-[[nodiscard]] Result<RawHeaders> read_raw_headers(const RawFile& file, std::string& bytes);
+[[nodiscard]] Result<RawHeaders> read_raw_headers(const files::RawFile& file, std::string& bytes);
 
 }  // namespace osio::exr

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/exr/checksum.h>
 #include <formats/exr/header_bytes.h>
-#include <formats/exr/raw_file.h>
+#include <formats/files/raw_file.h>
 
 #include <cerrno>
 #include <cstring>
@@ -36,7 +36,7 @@ Result<void> overwrite(const std::string& path, std::uint64_t at, std::string_vi
 }
 
 /// The sums of a part's chunks, whose table starts at `table_at`.
-Result<void> sum_chunks(const RawFile& file, bool multi_part, std::uint64_t table_at, Checksum& sum) {
+Result<void> sum_chunks(const files::RawFile& file, bool multi_part, std::uint64_t table_at, Checksum& sum) {
     // A part's number where there are several, a row, the size.
     const std::size_t header_bytes = multi_part ? 12 : 8;
     std::string table, chunk;
@@ -53,7 +53,7 @@ Result<void> sum_chunks(const RawFile& file, bool multi_part, std::uint64_t tabl
 }  // namespace
 
 Result<void> write_checksum(const std::string& path) {
-    OSIO_TRY(const RawFile file, RawFile::open(path));
+    OSIO_TRY(const files::RawFile file, files::RawFile::open(path));
     std::string bytes;
     OSIO_TRY(const RawHeaders headers, read_raw_headers(file, bytes));
     std::uint64_t table_at = headers.end;

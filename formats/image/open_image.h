@@ -12,4 +12,7 @@ namespace osio::image {
 /// refuses, NotSpectral where it is of no such format, Damaged and the format's other refusals.
 [[nodiscard]] Result<std::shared_ptr<const SpectralImage>> open_image(const std::string& path);
 
+/// True where the file exists and starts like one that open_image() reads. Cheap; never an error.
+[[nodiscard]] bool is_ours(const std::string& path);
+
 }  // namespace osio::image

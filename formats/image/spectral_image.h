@@ -50,6 +50,8 @@ struct Part {
     bool deep = false;
     bool tiled = false;
     std::string compression;  ///< "zip", "piz", "none", ...: OpenImageIO's words
+    /// How a format stores samples that is not told by tiles and types: "bil of uint16, little-endian".
+    std::string storage;
     ChannelLayout layout;
     SpectralMetadata metadata;
 

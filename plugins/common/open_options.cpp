@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <plugins/common/open_options.h>
 
-#include <formats/exr/exr_file.h>
 #include <formats/files/config_module.h>
 #include <formats/files/text_file.h>
+#include <formats/image/open_image.h>
 
 #include <osio/base/text.h>
 #include <osio/collapse/output_resolver.h>
@@ -153,9 +153,9 @@ bool names_our_file(const std::string& name) {
         return false;
     const std::string base = kind == NameKind::Query ? cut_query(name).base : name;
     if (!has_extension(base, ".spectral"))
-        return exr::starts_like_exr(base);
+        return image::is_ours(base);
     const auto recipe = read_recipe(base);
-    return recipe && exr::starts_like_exr(recipe->path);
+    return recipe && image::is_ours(recipe->path);
 }
 
 bool has_spectral_hint(const OIIO::ImageSpec& config) {

@@ -14,7 +14,7 @@ namespace osio::plugin {
 
 /// What to open and how.
 struct OpenRequest {
-    std::string path;         ///< the OpenEXR file
+    std::string path;         ///< of any format that image::open_image() reads
     CollapseRequest request;  ///< paths of tables are absolute or seen from the current folder
 };
 
@@ -39,7 +39,7 @@ enum class NameKind {
 /// True where a host's hints ask for spectral treatment.
 [[nodiscard]] bool has_spectral_hint(const OIIO::ImageSpec& config);
 
-/// Reads a recipe: lines `key = value` with the words of request_options() and `source`, the OpenEXR
+/// Reads a recipe: lines `key = value` with the words of request_options() and `source`, the image's
 /// file; `#` starts a comment. Paths are seen from the recipe's folder.
 [[nodiscard]] Result<OpenRequest> read_recipe(const std::string& path);
 

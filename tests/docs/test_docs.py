@@ -139,6 +139,7 @@ class Reference(OsioCase):
         self.names(self.keys_of(self.osiotool_json("verify", "shot.exr")))
         self.names(self.keys_of(self.osiotool_json("collapse", "shot.exr", "o.exr", *words)))
         self.names(self.keys_of(self.osiotool_json("difference", "o.exr", "shot.exr", "--illuminant", "A")))
+        self.names(self.keys_of(self.osiotool_json("convert", "shot.exr", "cube.hdr")))
         self.names(self.keys_of(self.osiotool_json("photometry", "--illuminant", "A")))
         self.names(self.keys_of(self.osiotool_json("plan", "shot.exr", "--to", "ACEScct", "--config", CONFIG,
                                                    "--illuminant", "A")))

@@ -29,6 +29,7 @@ class Stage(OsioCase):
         self.assertEqual(found, [
             "bin/osiotool",
             "env.sh",
+            "lib/osio/oiio-2.4/envi.imageio.so",
             "lib/osio/oiio-2.4/spectralexr.imageio.so",
             "lib/osio/osio_ocio.so",
             "lib/osio/osio_oiio-2.4.so",

@@ -84,7 +84,7 @@ Result<std::string> collapse(const std::string& path) {
 class Regions {
   public:
     explicit Regions(const std::string& path) {
-        const auto file = exr::RawFile::open(path).value();
+        const auto file = files::RawFile::open(path).value();
         std::string bytes, number;
         m_headers_end = exr::read_raw_headers(file, bytes).value().end;
         const auto opened = exr::ExrFile::open(path).value();

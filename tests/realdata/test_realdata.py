@@ -7,6 +7,7 @@ import re
 import unittest
 
 import numpy as np
+import OpenImageIO as oiio
 
 from osio_case import OsioCase, oracle_xyz, stack
 
@@ -92,6 +93,38 @@ class RealFiles(OsioCase):
                 self.assertTrue(np.array_equal(before[channel], by_wavelength[wavelength_of(channel)]), channel)
             for channel in "RGB":  # still what was made of these bands
                 self.assertTrue(np.array_equal(before[channel], after[channel]), channel)
+
+
+class Envi(OsioCase):
+    """Cubes of real cameras, by the plugin against numpy, and to colour."""
+
+    def cube(self, name, kind, shape):
+        """The path of a header, and its numbers as [y, x, band]: both files are bil."""
+        header = os.path.join(IMAGES, "..", "envi", name + ".hdr")
+        if not os.path.exists(header):
+            self.skipTest(f"no {header}")
+        data = next(header[:-4] + ending for ending in (".raw", ".dat") if os.path.exists(header[:-4] + ending))
+        return header, np.fromfile(data, kind).reshape(shape).transpose(0, 2, 1)
+
+    def check_cube(self, name, kind, shape, illuminant):
+        source, numbers = self.cube(name, kind, shape)
+        image = oiio.ImageInput.open(source)
+        self.assertIsNotNone(image, oiio.geterror())
+        self.assertEqual(image.format_name(), "envi")
+        spec = image.spec()
+        found = image.read_image(0, 0, 0, spec.nchannels, spec.format)
+        self.assertEqual(found.tobytes(), np.ascontiguousarray(numbers).tobytes())
+        nm = [float(channel[2:-2]) for channel in spec.channelnames]
+        self.assertEqual(nm, sorted(nm))
+        expected = numbers.astype(float) @ oracle_xyz(nm, illuminant).T
+        pixels, _, _ = self.both(source, to="xyz", illuminant=illuminant, names="xyz", basis="linear")
+        self.expect(pixels, expected)
+
+    def test_corn_kernels(self):
+        self.check_cube("corn-kernel-hyperspectral", "<u2", (31, 580, 43), "A")
+
+    def test_fenix(self):
+        self.check_cube("fenix_Radiometric_8x2_1x1", "<f4", (1, 363, 384), "D65")
 
 
 if __name__ == "__main__":

@@ -23,7 +23,7 @@ LIBRARIES = {
     r"tl/": r"core/osio/base/result\.h",
     r"hwy/": r"core/osio/collapse/kernel_simd\.cpp|formats/exr/zip_simd\.cpp",
     r"libdeflate\.h": r"formats/exr/zip_codec\.cpp",
-    r"OpenEXR/|Imath/": r"formats/exr/|formats/image/|plugins/|tools/host_module/|examples/",
+    r"OpenEXR/|Imath/": r"formats/(convert|envi|exr|image)/|plugins/|tools/host_module/|examples/",
     r"OpenImageIO/": r"plugins/|tools/host_module/",
     r"OpenColorIO/": r"plugins/ocio/",
     r"fmt/": r"tools/osiotool/",
@@ -133,6 +133,12 @@ class Fuzzing(unittest.TestCase):
         self.assertEqual(sorted(targets), sorted(os.listdir(os.path.join(SOURCE, "fuzz", "seeds"))))
         for target in targets:
             self.assertTrue(os.listdir(os.path.join(SOURCE, "fuzz", "seeds", target)), target)
+
+
+class PythonTests(unittest.TestCase):
+    def test_each_runs_when_it_is_run(self):
+        for path in re.findall(r"osio_python_test\((\S+)", text("tests/CMakeLists.txt")):
+            self.assertTrue(text("tests/" + path).endswith('if __name__ == "__main__":\n    unittest.main()\n'), path)
 
 
 class Files(unittest.TestCase):

@@ -43,6 +43,20 @@ struct CollapseOptions {
     bool json = false;
 };
 
+struct ConvertOptions {
+    std::string input;
+    std::string output;
+    std::string part;
+    std::string set;
+    std::string bands;        ///< "400-700nm"; empty: all
+    std::string depth;        ///< of EXR output: half, float; empty: as they are
+    std::string interleave;   ///< of ENVI output: bsq, bil, bip; empty: bsq
+    std::string compression;  ///< of EXR output; empty: zip
+    unsigned threads = 0;
+    bool quiet = false;
+    bool json = false;
+};
+
 struct VerifyOptions {
     std::vector<std::string> inputs;
     unsigned threads = 0;
@@ -107,6 +121,7 @@ struct ListOptions {
 [[nodiscard]] Result<ExitCode> run_info(const InfoOptions& options);
 [[nodiscard]] Result<ExitCode> run_plan(const PlanOptions& options);
 [[nodiscard]] Result<ExitCode> run_collapse(const CollapseOptions& options);
+[[nodiscard]] Result<ExitCode> run_convert(const ConvertOptions& options);
 [[nodiscard]] Result<ExitCode> run_verify(const VerifyOptions& options);
 [[nodiscard]] Result<ExitCode> run_difference(const DifferenceOptions& options);
 [[nodiscard]] Result<ExitCode> run_photometry(const PhotometryOptions& options);

@@ -57,6 +57,7 @@ class CommandLine {
         add_info();
         add_collapse();
         add_plan();
+        add_convert();
         add_verify();
         add_difference();
         add_photometry();
@@ -101,14 +102,14 @@ class CommandLine {
     void add_info() {
         CLI::App* const command = add("info", "what a file holds: parts, bands, units, warnings",
                                       [this] { return run_info(m_info); });
-        command->add_option("file", m_info.input, "OpenEXR file")->required();
+        command->add_option("file", m_info.input, "OpenEXR or ENVI file")->required();
         command->add_flag("--json", m_info.json, "as JSON");
     }
 
     void add_collapse() {
         CLI::App* const command =
             add("collapse", "bands to a colour image", [this] { return run_collapse(m_collapse); });
-        command->add_option("input", m_collapse.input, "spectral OpenEXR file")->required();
+        command->add_option("input", m_collapse.input, "spectral OpenEXR or ENVI file")->required();
         command->add_option("output", m_collapse.output, "image; .exr, .png, .tif, ...")->required();
         add_request_options(*command, m_collapse.request);
         command->add_option("-d", m_collapse.depth, "type of the output's samples")
@@ -134,9 +135,29 @@ class CommandLine {
     void add_plan() {
         CLI::App* const command = add("plan", "what a collapse would do: recipe, weights, provenance",
                                       [this] { return run_plan(m_plan); });
-        command->add_option("input", m_plan.input, "spectral OpenEXR file")->required();
+        command->add_option("input", m_plan.input, "spectral OpenEXR or ENVI file")->required();
         add_request_options(*command, m_plan.request);
         command->add_flag("--json", m_plan.json, "as JSON");
+    }
+
+    void add_convert() {
+        CLI::App* const command = add("convert", "bands from one format to another, as they are",
+                                      [this] { return run_convert(m_convert); });
+        command->add_option("input", m_convert.input, "spectral OpenEXR or ENVI file")->required();
+        command->add_option("output", m_convert.output, ".exr, .spexr, or .hdr for ENVI")->required();
+        const auto word = [command](const std::string& name, std::string& value, const std::string& type,
+                                    const std::string& help) {
+            command->add_option(name, value, help)->type_name(type);
+        };
+        word("--part", m_convert.part, "PART", "number from 0, or name");
+        word("--set", m_convert.set, "SET", "where a part holds several");
+        word("--bands", m_convert.bands, "400-700nm", "bands outside are left out");
+        word("-d", m_convert.depth, "half|float", "of .exr; default: as they are");
+        word("--compression", m_convert.compression, "C", "of .exr; default zip");
+        word("--interleave", m_convert.interleave, "bsq|bil|bip", "of .hdr; default bsq");
+        command->add_option("--threads", m_convert.threads, "default: one a processor")->type_name("N");
+        command->add_flag("--quiet", m_convert.quiet, "no summary, no progress");
+        command->add_flag("--json", m_convert.json, "a report on stdout as JSON");
     }
 
     void add_verify() {
@@ -150,7 +171,7 @@ class CommandLine {
     void add_difference() {
         CLI::App* const command = add("difference", "colour difference CIEDE2000 between two images",
                                       [this] { return run_difference(m_difference); });
-        command->add_option("a", m_difference.a, "spectral, RGB or XYZ OpenEXR file")->required();
+        command->add_option("a", m_difference.a, "spectral, RGB or XYZ OpenEXR file, or ENVI")->required();
         command->add_option("b", m_difference.b, "the same")->required();
         add_request_options(*command, m_difference.request,
                             {"to", "config", "names", "adapt", "display", "scale"});
@@ -172,7 +193,7 @@ class CommandLine {
     void add_photometry() {
         CLI::App* const command = add("photometry", "luminance of a radiance image, or efficacy of a light",
                                       [this] { return run_photometry(m_photometry); });
-        command->add_option("input", m_photometry.input, "spectral OpenEXR file; none: --illuminant");
+        command->add_option("input", m_photometry.input, "spectral OpenEXR or ENVI file; none: --illuminant");
         command->add_option("output", m_photometry.output, "luminance image, .exr");
         add_request_options(
             *command, m_photometry.request,
@@ -273,6 +294,7 @@ class CommandLine {
     InfoOptions m_info;
     CollapseOptions m_collapse;
     PlanOptions m_plan;
+    ConvertOptions m_convert;
     VerifyOptions m_verify;
     DifferenceOptions m_difference;
     PhotometryOptions m_photometry;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <formats/convert/convert.h>
 #include <formats/exr/chunk_map.h>
 #include <formats/exr/exr_file.h>
 #include <formats/exr/soundness.h>
@@ -35,6 +36,16 @@ struct CollapseOutcome {
     std::vector<exr::BadRows> missing;  ///< damaged rows of the input, written black
     double seconds = 0;
 };
+
+/// What a conversion did.
+struct ConvertReport {
+    std::string input;
+    convert::Outcome outcome;
+    double seconds = 0;
+};
+
+[[nodiscard]] std::string convert_text(const ConvertReport& report);
+[[nodiscard]] std::string convert_json(const ConvertReport& report);
 
 /// What is known of a file after all of it was read.
 struct FileSoundness {

@@ -56,7 +56,9 @@ Json part_json(const image::Part& part) {
             {"height", part.data_window.height()},
             {"data_window", window_json(part.data_window)},
             {"display_window", window_json(part.display_window)},
-            {"storage", part.tiled ? "tiles" : "scanlines"},
+            {"storage", !part.storage.empty() ? part.storage
+                        : part.tiled          ? "tiles"
+                                              : "scanlines"},
             {"deep", part.deep},
             {"compression", part.compression},
             {"channels", part.channels.size()},
@@ -288,11 +290,26 @@ std::string spaces_json(const ColourConfig* config) {
          {"config", {{"file", config->file()}, {"name", config->name()}, {"names", std::move(names)}}}});
 }
 
+std::string convert_json(const ConvertReport& report) {
+    const convert::Outcome& outcome = report.outcome;
+    return dump({{"input", report.input},
+                 {"output", outcome.output},
+                 {"data", outcome.data.empty() ? Json(nullptr) : Json(outcome.data)},
+                 {"width", outcome.width},
+                 {"height", outcome.height},
+                 {"bands", outcome.bands},
+                 {"types", outcome.types},
+                 {"lost", outcome.lost},
+                 {"clamped_samples", outcome.clamped_samples},
+                 {"seconds", report.seconds},
+                 {"warnings", outcome.warnings}});
+}
+
 std::string info_json(const image::SpectralImage& file) {
     Json parts = Json::array();
     for (const image::Part& part : file.parts())
         parts.push_back(part_json(part));
-    return dump({{"file", file.path()}, {"parts", std::move(parts)}});
+    return dump({{"file", file.path()}, {"format", file.format()}, {"parts", std::move(parts)}});
 }
 
 std::string plans_json(const std::vector<image::CollapseJob>& jobs) {

@@ -50,11 +50,18 @@ std::string set_text(const image::Part& part, const SpectralSet& set) {
     return out + "\n";
 }
 
+/// "deep scanlines, zip compression", "bil of uint16, little-endian".
+std::string storage_text(const image::Part& part) {
+    if (!part.storage.empty())
+        return part.storage;
+    return fmt::format("{}{}, {} compression", part.deep ? "deep " : "", part.tiled ? "tiles" : "scanlines",
+                       part.compression);
+}
+
 std::string part_text(const image::Part& part, std::size_t index) {
-    std::string out = fmt::format("part {}{}: {}x{} pixels, {} channels, {}{}, {} compression\n", index,
+    std::string out = fmt::format("part {}{}: {}x{} pixels, {} channels, {}\n", index,
                                   part.name.empty() ? "" : " \"" + part.name + "\"", part.data_window.width(),
-                                  part.data_window.height(), part.channels.size(), part.deep ? "deep " : "",
-                                  part.tiled ? "tiles" : "scanlines", part.compression);
+                                  part.data_window.height(), part.channels.size(), storage_text(part));
     out += "  data window " + window_text(part.data_window);
     out += part.display_window == part.data_window
                ? ", the display window too\n"
@@ -174,6 +181,21 @@ std::string plan_text(const image::CollapseJob& job) {
     out += "\n" + table.text();
     for (const std::string& warning : job.warnings)
         out += "warning: " + warning + "\n";
+    return out;
+}
+
+std::string convert_text(const ConvertReport& report) {
+    const convert::Outcome& outcome = report.outcome;
+    std::string out =
+        fmt::format("{}: {}x{} {}, {} bands, {:.2f} s\n", outcome.output, outcome.width, outcome.height,
+                    join(outcome.types, " and "), outcome.bands, report.seconds);
+    if (!outcome.data.empty())
+        out += fmt::format("data in {}\n", outcome.data);
+    for (const std::string& what : outcome.lost)
+        out += fmt::format("note: not in the output: {}\n", what);
+    if (outcome.clamped_samples > 0)
+        out +=
+            fmt::format("note: {} samples beyond +-65504 were written as +-65504\n", outcome.clamped_samples);
     return out;
 }
 

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-namespace osio::exr {
+namespace osio::files {
 
 /// A file's bytes, read at any place by any number of threads.
 class RawFile {
@@ -32,4 +32,4 @@ class RawFile {
     std::uint64_t m_size;
 };
 
-}  // namespace osio::exr
+}  // namespace osio::files

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <formats/exr/raw_file.h>
+#include <formats/files/raw_file.h>
 
 #include <cerrno>
 #include <cstring>
@@ -8,7 +8,7 @@
 #include <unistd.h>
 #include <utility>
 
-namespace osio::exr {
+namespace osio::files {
 
 Result<RawFile> RawFile::open(const std::string& path) {
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
@@ -52,4 +52,4 @@ Result<void> RawFile::read(std::uint64_t at, std::uint64_t count, std::string& o
     return {};
 }
 
-}  // namespace osio::exr
+}  // namespace osio::files

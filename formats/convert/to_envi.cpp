@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <formats/convert/samples.h>
+#include <formats/convert/targets.h>
+#include <formats/envi/attribute_fields.h>
+#include <formats/envi/envi_writer.h>
+#include <formats/exr/output_header.h>
+
+#include <algorithm>
+#include <array>
+
+namespace osio::convert {
+
+namespace {
+
+/// A worker's blocks as floats.
+class Floats final : public BlockVisitor {
+  public:
+    Floats(envi::EnviWriter& writer, std::size_t planes)
+        : m_writer(writer), m_buffers(planes), m_planes(planes) {}
+
+    void process(const PlanarBlock& block) override {
+        for (std::size_t p = 0; p < m_planes.size(); ++p)
+            m_planes[p] = reinterpret_cast<const float*>(m_buffers[p].convert(block, p, SampleType::Float));
+    }
+
+    [[nodiscard]] Result<void> deliver(const PlanarBlock& block) override {
+        return m_writer.write_rows(block.row_count, m_planes);
+    }
+
+  private:
+    envi::EnviWriter& m_writer;
+    std::vector<SampleBuffer> m_buffers;
+    std::vector<const float*> m_planes;
+};
+
+/// Attributes that a cube states by its own keys, or that every header of OpenEXR has.
+bool is_stated(const std::string& name, const Imf::Header& header, bool with_fwhm) {
+    if (name == "pixelAspectRatio")
+        return header.pixelAspectRatio() == 1;
+    if (name == "screenWindowWidth")
+        return header.screenWindowWidth() == 1;
+    if (name == "screenWindowCenter")
+        return header.screenWindowCenter() == Imath::V2f(0, 0);
+    return name == attribute::kLayoutVersion || (with_fwhm && name == attribute::kFwhm);
+}
+
+/// Keys that the writer states itself.
+bool is_written(const std::string& key) {
+    constexpr std::array<std::string_view, 2> kWritten{"file type", "data units"};
+    return envi::is_structural(key) || std::find(kWritten.begin(), kWritten.end(), key) != kWritten.end();
+}
+
+void add_fields(const Choice& choice, envi::EnviOutput& cube, std::vector<std::string>& lost) {
+    const Imf::Header& header = choice.attributes;
+    std::vector<std::string> names;
+    for (auto a = header.begin(); a != header.end(); ++a) {
+        const std::string name = a.name();
+        if (is_stated(name, header, !cube.fwhm_nm.empty()))
+            continue;
+        if (exr::is_structural(name))
+            continue;
+        auto field = envi::field_of(name, a.attribute());
+        if (!field)
+            names.push_back(name);
+        else if (!is_written(field->key))
+            cube.fields.push_back(std::move(*field));
+    }
+    if (!names.empty())
+        lost.push_back((names.size() > 1 ? "attributes " : "attribute ") + names_text(names));
+}
+
+}  // namespace
+
+Result<void> write_envi(const Request& request, const Choice& choice, Runner& runner,
+                        const Progress& progress, Outcome& outcome) {
+    const image::Part& part = choice.part();
+    envi::EnviOutput cube;
+    cube.samples = static_cast<std::size_t>(part.data_window.width());
+    cube.lines = static_cast<std::size_t>(part.data_window.height());
+    cube.interleave = request.interleave.value_or(envi::Interleave::Bsq);
+    cube.quantity = choice.set.quantity();
+    cube.wavelengths_nm = choice.set.wavelengths_nm();
+    if (const auto& fwhm = part.metadata.fwhm)
+        for (const double nm : cube.wavelengths_nm)
+            cube.fwhm_nm.push_back(fwhm->held_at(nm));
+    add_fields(choice, cube, outcome.lost);
+    const image::Window whole{0, 0, part.data_window.width() - 1, part.data_window.height() - 1};
+    if (part.data_window != whole || part.display_window != whole)
+        outcome.lost.emplace_back("the place of the data window in the display window");
+    if (choice.set.family != Family::T && choice.set.family != Family::S0)
+        outcome.lost.push_back("that the bands are the Stokes component " +
+                               std::string(family_name(choice.set.family)));
+    if (!choice.set.root.empty())
+        outcome.lost.push_back("the name \"" + choice.set.root + "\" of the set");
+    if (std::any_of(choice.channels.begin(), choice.channels.end(),
+                    [&part](std::size_t c) { return part.channels[c].type == SampleType::Uint; }))
+        outcome.lost.emplace_back("digits of unsigned integers beyond the 24 bits of a float");
+    outcome.types = {"float"};
+
+    OSIO_TRY(const auto source,
+             choice.image->make_block_source(choice.part_index, choice.planes(), image::Grain::Block));
+    OSIO_TRY(const auto writer, envi::EnviWriter::create(request.output, std::move(cube)));
+    outcome.data = writer->data_path();
+    const auto start = [&] { return std::make_unique<Floats>(*writer, choice.channels.size()); };
+    OSIO_CHECK_OK(
+        visit_blocks(*source, {part.data_window.min_y, part.data_window.max_y}, runner, start, progress));
+    return writer->finish();
+}
+
+}  // namespace osio::convert

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <formats/envi/spectral_keys.h>
+
+#include <osio/base/text.h>
+#include <osio/layout/spectral_metadata.h>
+#include <osio/spectra/wavelength.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace osio::envi {
+
+namespace {
+
+/// A unit's spellings and how parse_wavelength_nm() writes it.
+struct Unit {
+    std::string_view word;
+    std::string_view suffix;
+};
+
+constexpr std::string_view kWavenumber = "cm-1";
+
+constexpr std::array<Unit, 27> kUnits{{
+    {"nanometers", "nm"},   {"nanometer", "nm"},   {"nanometres", "nm"},
+    {"nanometre", "nm"},    {"nm", "nm"},          {"micrometers", "um"},
+    {"micrometer", "um"},   {"micrometres", "um"}, {"micrometre", "um"},
+    {"microns", "um"},      {"micron", "um"},      {"um", "um"},
+    {"\xC2\xB5m", "um"},    {"\xCE\xBCm", "um"},   {"\xB5m", "um"},
+    {"millimeters", "mm"},  {"mm", "mm"},          {"centimeters", "cm"},
+    {"cm", "cm"},           {"meters", "m"},       {"m", "m"},
+    {"ghz", "GHz"},         {"mhz", "MHz"},        {"thz", "THz"},
+    {"wavenumber", "cm-1"}, {"cm-1", "cm-1"},      {"1/cm", "cm-1"},
+}};
+
+/// Numbers below this are micrometres where no unit is stated: nothing that makes images sees 100 nm.
+constexpr double kLeastNm = 100;
+
+/// Spellings of keys that are met in real files, for the ones that are meant.
+constexpr std::array<std::array<std::string_view, 2>, 5> kMisspelt{{
+    {"wavelengths", "wavelength"},
+    {"wavelengths units", "wavelength units"},
+    {"wavelength unit", "wavelength units"},
+    {"wavelength unts", "wavelength units"},
+    {"bad bands list", "bbl"},
+}};
+
+/// The field of a key or of a misspelling of it, which is said aloud.
+const Field* find_spelt(EnviHeader& header, std::string_view key) {
+    if (const Field* found = header.fields.find(key))
+        return found;
+    for (const auto& [found, meant] : kMisspelt)
+        if (meant == key)
+            if (const Field* field = header.fields.find(found)) {
+                header.warnings.push_back("\"" + field->label + "\" is taken as \"" + std::string(key) +
+                                          "\"");
+                return field;
+            }
+    return nullptr;
+}
+
+Result<std::vector<std::string_view>> items_by_band(const EnviHeader& header, const Field& field) {
+    auto items = list_items(field.value);
+    if (items.size() != header.bands)
+        return fail(ErrorCode::Damaged, "found " + std::to_string(items.size()) + " items of \"" +
+                                            field.label + "\" for " + std::to_string(header.bands) +
+                                            " bands");
+    return items;
+}
+
+tl::unexpected<Error> no_number(const Field& field, std::string_view item) {
+    return fail(ErrorCode::Damaged, "found \"" + std::string(item.substr(0, 40)) + "\" in \"" + field.label +
+                                        "\", expected a number");
+}
+
+Result<std::vector<double>> numbers_of(const EnviHeader& header, const Field& field) {
+    OSIO_TRY(const auto items, items_by_band(header, field));
+    std::vector<double> out;
+    for (const std::string_view item : items) {
+        const auto value = parse_double(item);
+        if (!value)
+            return no_number(field, item);
+        out.push_back(*value);
+    }
+    return out;
+}
+
+/// The unit's suffix, guessed where the header has none; empty where the numbers are no wavelengths.
+std::string_view unit_of(EnviHeader& header, const std::vector<double>& numbers) {
+    const Field* const field = find_spelt(header, "wavelength units");
+    const std::string word = field == nullptr ? std::string() : to_lower(trim(field->value));
+    for (const Unit& unit : kUnits)
+        if (unit.word == word)
+            return unit.suffix;
+    if (word == "index") {
+        header.warnings.emplace_back("\"wavelength units\" are Index: the bands have no wavelengths");
+        return {};
+    }
+    const bool micro =
+        std::all_of(numbers.begin(), numbers.end(), [](double number) { return number < kLeastNm; });
+    header.warnings.push_back((word.empty() ? std::string("no \"wavelength units\"")
+                                            : "\"wavelength units\" are \"" + field->value + "\"") +
+                              ": the wavelengths are taken as " + (micro ? "micrometres" : "nanometres"));
+    return micro ? "um" : "nm";
+}
+
+/// One item in nm, 0 where it is none: makers fill the places of dead bands with zeros.
+double wavelength_nm(std::string_view item, double number, std::string_view unit) {
+    if (number <= 0)
+        return 0;
+    if (unit == kWavenumber)
+        return 1e7 / number;
+    if (item.starts_with('+'))
+        item.remove_prefix(1);
+    return parse_wavelength_nm(std::string(item) + std::string(unit), DecimalMark::Point).value_or(0);
+}
+
+Result<void> read_wavelengths(EnviHeader& header) {
+    const Field* const field = find_spelt(header, "wavelength");
+    if (field == nullptr) {
+        header.warnings.emplace_back("no \"wavelength\": the bands have no wavelengths");
+        return {};
+    }
+    OSIO_TRY(const auto items, items_by_band(header, *field));
+    OSIO_TRY(const auto numbers, numbers_of(header, *field));
+    const std::string_view unit = unit_of(header, numbers);
+    if (unit.empty())
+        return {};
+    std::size_t without = 0;
+    for (std::size_t band = 0; band < items.size(); ++band) {
+        header.wavelengths_nm.push_back(wavelength_nm(items[band], numbers[band], unit));
+        without += header.wavelengths_nm.back() == 0;
+    }
+    if (without > 0)
+        header.warnings.push_back(std::to_string(without) + " of " + std::to_string(header.bands) +
+                                  " bands have no wavelength above 0 and are left out of the set");
+
+    OSIO_TRY(const auto widths, numbers_by_band(header, "fwhm"));
+    for (std::size_t band = 0; band < widths.size(); ++band) {
+        // Of frequencies and wavenumbers v, to first order: dl/l = dv/v.
+        const double nm = header.wavelengths_nm[band];
+        const bool reciprocal = unit.ends_with("Hz") || unit == kWavenumber;
+        header.fwhm_nm.push_back(reciprocal ? nm * widths[band] / numbers[band]
+                                            : wavelength_nm(format_double(widths[band]), widths[band], unit));
+    }
+    return {};
+}
+
+Result<void> read_bad_bands(EnviHeader& header) {
+    const Field* const field = find_spelt(header, "bbl");
+    if (field == nullptr)
+        return {};
+    OSIO_TRY(const auto good, numbers_of(header, *field));
+    std::size_t count = 0;
+    for (const double value : good) {
+        header.bad.push_back(value == 0);
+        count += value == 0;
+    }
+    if (count > 0)
+        header.warnings.push_back(std::to_string(count) + " of " + std::to_string(header.bands) +
+                                  " bands are bad by \"bbl\" and are left out of the set");
+    return {};
+}
+
+/// Keys that may say what the numbers are, in the order in which they are believed.
+constexpr std::array<std::string_view, 6> kUnitKeys{"data units",    "data unit",      "units",
+                                                    "z plot titles", "data type name", "description"};
+
+/// The words around "radiance" are its unit; our own files carry it apart, as the layout's attribute.
+void read_units(const Field& field, EnviHeader& header) {
+    if (!iequals(trim(field.value), "radiance"))
+        header.units = trim(field.value);
+    else if (header.fields.find("exr string emissiveunits") == nullptr)
+        header.warnings.push_back("\"" + field.label + "\" name no unit: radiance is taken as " +
+                                  std::string(kWrittenEmissiveUnits) + " per nm");
+}
+
+void read_quantity(EnviHeader& header) {
+    if (header.fields.find("reflectance scale factor") != nullptr)
+        return;
+    for (const std::string_view key : kUnitKeys) {
+        const Field* const field = header.fields.find(key);
+        const std::string text = field == nullptr ? std::string() : to_lower(field->value);
+        const bool radiance = text.find("radiance") != std::string::npos;
+        const bool reflectance = text.find("reflectance") != std::string::npos;
+        if (radiance == reflectance)
+            continue;
+        header.quantity = radiance ? Quantity::Radiance : Quantity::Reflectance;
+        if (radiance)
+            read_units(*field, header);
+        return;
+    }
+    header.warnings.emplace_back(
+        "does not say whether its numbers are reflectance or radiance: taken as reflectance; a line "
+        "\"data units = Radiance\" in the header makes them radiance");
+}
+
+}  // namespace
+
+Result<std::vector<double>> numbers_by_band(const EnviHeader& header, std::string_view key) {
+    const Field* const field = header.fields.find(key);
+    return field == nullptr ? std::vector<double>() : numbers_of(header, *field);
+}
+
+Result<void> read_spectral_keys(EnviHeader& header) {
+    OSIO_CHECK_OK(read_wavelengths(header));
+    OSIO_CHECK_OK(read_bad_bands(header));
+    read_quantity(header);
+    return {};
+}
+
+}  // namespace osio::envi
