@@ -50,6 +50,13 @@ bool is_written(const std::string& key) {
     return envi::is_structural(key) || std::find(kWritten.begin(), kWritten.end(), key) != kWritten.end();
 }
 
+/// Keys whose lists count bands as they were before.
+bool counts_bands(const std::string& key) {
+    constexpr std::array<std::string_view, 4> kByBand{
+        "default bands", "band names", "data reflectance gain values", "data reflectance offset values"};
+    return std::find(kByBand.begin(), kByBand.end(), key) != kByBand.end();
+}
+
 void add_fields(const Choice& choice, envi::EnviOutput& cube, std::vector<std::string>& lost) {
     const Imf::Header& header = choice.attributes;
     std::vector<std::string> names;
@@ -60,9 +67,15 @@ void add_fields(const Choice& choice, envi::EnviOutput& cube, std::vector<std::s
         if (exr::is_structural(name))
             continue;
         auto field = envi::field_of(name, a.attribute());
-        if (!field)
+        if (field && is_written(field->key))
+            continue;
+        // Keys have no case: of two that differ in nothing else, one would hide the other.
+        const bool hidden =
+            field && std::any_of(cube.fields.begin(), cube.fields.end(),
+                                 [&](const envi::Field& other) { return other.key == field->key; });
+        if (!field || hidden || counts_bands(field->key))
             names.push_back(name);
-        else if (!is_written(field->key))
+        else
             cube.fields.push_back(std::move(*field));
     }
     if (!names.empty())

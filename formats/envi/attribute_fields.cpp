@@ -9,6 +9,9 @@
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
+#include <cmath>
+#include <limits>
+
 namespace osio::envi {
 
 namespace {
@@ -24,11 +27,12 @@ std::optional<std::string> text_of(const Imf::Attribute& attribute) {
         return text->value();
     if (const auto* number = dynamic_cast<const Imf::IntAttribute*>(&attribute))
         return std::to_string(number->value());
+    std::optional<double> value;
     if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&attribute))
-        return format_double(static_cast<double>(number->value()));
+        value = static_cast<double>(number->value());
     if (const auto* number = dynamic_cast<const Imf::DoubleAttribute*>(&attribute))
-        return format_double(number->value());
-    return std::nullopt;
+        value = number->value();
+    return value && std::isfinite(*value) ? std::optional(format_double(*value)) : std::nullopt;
 }
 
 /// True where the attribute has one of our types and the text is one of its values.
@@ -42,7 +46,7 @@ bool insert_typed(std::string_view type, const std::string& name, const std::str
     const auto whole = parse_int(value);
     if (type == "int" && whole)
         header.insert(name, Imf::IntAttribute(*whole));
-    else if (type == "float" && number)
+    else if (type == "float" && number && std::abs(*number) <= double{std::numeric_limits<float>::max()})
         header.insert(name, Imf::FloatAttribute(static_cast<float>(*number)));
     else if (type == "double" && number)
         header.insert(name, Imf::DoubleAttribute(*number));
@@ -60,10 +64,10 @@ std::optional<Field> field_of(const std::string& name, const Imf::Attribute& att
     if (name.starts_with(kAttributePrefix)) {
         const std::string key = name.substr(kAttributePrefix.size());
         const bool plain = fits_a_key(*value) && value->find_first_of(",{[") == std::string::npos;
-        return fits_a_key(key) ? std::optional(Field{key, key, *value, !plain}) : std::nullopt;
+        return fits_a_key(key) ? std::optional(Field{normal_key(key), key, *value, !plain}) : std::nullopt;
     }
     const std::string label = std::string(kForeign) + attribute.typeName() + " " + name;
-    return Field{label, label, *value, true};
+    return Field{normal_key(label), label, *value, true};
 }
 
 void insert_field(const Field& field, Imf::Header& header) {

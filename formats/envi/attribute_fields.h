@@ -15,7 +15,7 @@ inline constexpr std::string_view kAttributePrefix = "envi:";
 
 /// An attribute as a field of a header: one whose name starts with `envi:` under that key, a string, int, float
 /// or double of another name as `exr TYPE NAME`. Nothing for other types, and for text that the grammar cannot
-/// hold ('}', or '=' in a name).
+/// hold ('}', or '=' in a name), and for numbers that are not finite.
 [[nodiscard]] std::optional<Field> field_of(const std::string& name, const Imf::Attribute& attribute);
 
 /// Inserts a field as the attribute it came from, `exr TYPE NAME` under its name and type, all others as strings.

@@ -16,18 +16,6 @@ constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 /// As much of an odd line as a warning shows.
 constexpr std::size_t kShownBytes = 40;
 
-/// "Data_Type  " is "data type".
-std::string normal_key(std::string_view label) {
-    std::string out;
-    for (char c : to_lower(trim(label))) {
-        if (c == '_' || c == '\t')
-            c = ' ';
-        if (c != ' ' || (!out.empty() && out.back() != ' '))
-            out += c;
-    }
-    return out;
-}
-
 /// Lines of a text, with a place in it.
 class Lines {
   public:
@@ -83,6 +71,17 @@ const Field* HeaderFields::find(std::string_view key) const {
     const auto found =
         std::find_if(fields.begin(), fields.end(), [key](const Field& f) { return f.key == key; });
     return found == fields.end() ? nullptr : &*found;
+}
+
+std::string normal_key(std::string_view label) {
+    std::string out;
+    for (char c : to_lower(trim(label))) {
+        if (c == '_' || c == '\t')
+            c = ' ';
+        if (c != ' ' || (!out.empty() && out.back() != ' '))
+            out += c;
+    }
+    return out;
 }
 
 bool starts_like_envi(std::string_view text) {

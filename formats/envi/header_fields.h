@@ -26,6 +26,9 @@ struct HeaderFields {
     [[nodiscard]] const Field* find(std::string_view key) const;
 };
 
+/// A key in lower case, its words one space apart: "Data_Type" is "data type".
+[[nodiscard]] std::string normal_key(std::string_view label);
+
 /// True where text starts as ENVI headers do: a first line that is the word ENVI. Radiance pictures start
 /// with #?, headers of ESRI grids with a key.
 [[nodiscard]] bool starts_like_envi(std::string_view text);

@@ -10,7 +10,10 @@ namespace osio::image {
 Result<std::shared_ptr<const SpectralImage>> open_image(const std::string& path) {
     if (!exr::starts_like_exr(path) && envi::find_header(path))
         return envi::EnviFile::open(path);
-    return exr::ExrFile::open(path);
+    auto file = exr::ExrFile::open(path);
+    if (!file && file.error().code == ErrorCode::NotSpectral)
+        return fail(ErrorCode::NotSpectral, file.error().what + ", and there is no ENVI header", path);
+    return file;
 }
 
 bool is_ours(const std::string& path) {

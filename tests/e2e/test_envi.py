@@ -184,6 +184,14 @@ class Plugin(EnviCase):
         result = self.run_program("oiiotool", "cube.bil", "-o", "out.tif")
         self.assertIn("has 100 bytes, the header promises 6696", result.stdout + result.stderr)
 
+    def test_the_doctor_misses_it(self):
+        self.assertNotIn("envi", self.osiotool("doctor").stdout)
+        folder = os.environ["OIIO_LIBRARY_PATH"]
+        os.mkdir(self.path("alone"))
+        os.symlink(os.path.join(folder, "spectralexr.imageio.so"), self.path("alone/spectralexr.imageio.so"))
+        said = self.osiotool("doctor", env={"OIIO_LIBRARY_PATH": self.path("alone")}).stdout
+        self.assertIn("OpenImageIO does not see envi.imageio.so", said)
+
     def test_samples_come_by_a_query(self):
         counts = np.round(self.cube() * 10000)
         source = self.write_envi("cube", counts, 12, keys=[*self.wavelengths(), "reflectance scale factor = 10000"])
@@ -272,6 +280,19 @@ class Convert(EnviCase):
         self.assertEqual(info["warnings"], [])
         with open(self.path("cube.hdr")) as file:
             self.assertIn("fwhm = {\n5,\n5,", file.read())
+
+    def test_keys_that_count_bands_do_not_go_over(self):
+        source = self.write_envi("cube", self.cube(), keys=[*self.wavelengths(), "default bands = {3, 2, 1}",
+                                                            "sensor type = AVIRIS"])
+        self.osiotool("convert", source, "cube.exr")
+        report = self.osiotool_json("convert", "cube.exr", "cut.hdr", "--bands", "500-600nm")
+        self.assertEqual(report["lost"], ["attribute envi:default bands"])
+        with open(self.path("cut.hdr")) as file:
+            self.assertIn("\nsensor type = AVIRIS\n", file.read())
+
+    def test_attributes_of_one_key(self):
+        self.shot(attributes=[("take one", 7), ("take_one", 8)])
+        self.assertEqual(self.osiotool_json("convert", "shot.exr", "cube.hdr")["lost"], ["attribute take_one"])
 
     def test_what_is_lost_is_said(self):
         bands = self.bands([400, 500, 600])

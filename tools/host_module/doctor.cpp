@@ -19,6 +19,8 @@ namespace {
 
 constexpr const char* kFormat = "spectralexr";
 constexpr const char* kFileName = "spectralexr.imageio.so";
+constexpr const char* kEnviFormat = "envi";
+constexpr const char* kEnviFileName = "envi.imageio.so";
 constexpr const char* kVersionSymbol = "spectralexr_imageio_version";
 constexpr const char* kLibrarySymbol = "spectralexr_imageio_library_version";
 
@@ -84,6 +86,9 @@ class Examination {
             add(Kind::Good, "OpenImageIO sees the plugin " + used + " (" + library_version(used) + ")");
         else
             explain();
+        if (!in_list(host_attribute("format_list"), kEnviFormat))
+            add(Kind::Note, std::string("OpenImageIO does not see ") + kEnviFileName +
+                                ": ENVI cubes are read by a query (cube.hdr?to=raw) only");
         if (OIIO::get_int_attribute("try_all_readers", 1) == 0)
             add(Kind::Problem, "try_all_readers is 0: names with a query (shot.exr?to=...) will not be "
                                "read; .spectral and .spexr will");
