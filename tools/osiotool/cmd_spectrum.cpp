@@ -98,10 +98,8 @@ Result<ExitCode> run_spectrum(const SpectrumOptions& options) {
     OSIO_TRY(const auto spread, image::region_spectrum(*file, *selection, region));
     for (const image::BandSpread& band : spread)
         if (band.undefined != 0)
-            fmt::print(
-                stderr,
-                "osiotool: warning: {} of the samples at {:g} nm are NaN or infinite and are left out\n",
-                band.undefined, band.wavelength_nm);
+            fmt::print(stderr, "warning: {} of the samples at {:g} nm are NaN or infinite and are left out\n",
+                       band.undefined, band.wavelength_nm);
     const bool plot = to_lower(options.output).ends_with(".svg");
     if (!options.output.empty() && !plot && !to_lower(options.output).ends_with(".csv"))
         return fail(ErrorCode::Usage, "\"" + options.output + "\" is neither a .csv nor a .svg");

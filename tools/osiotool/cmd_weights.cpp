@@ -91,14 +91,14 @@ Result<ExitCode> run_weights(const WeightsOptions& options) {
     OSIO_TRY(const CollapseRequest request, request_of(options.request));
     OSIO_TRY(const auto job, image::open_collapse(options.input, request, files::text_loader({})));
     for (const std::string& warning : job.warnings)
-        fmt::print(stderr, "osiotool: warning: {}\n", warning);
+        fmt::print(stderr, "warning: {}\n", warning);
     if (options.oiiotool) {
         OSIO_TRY(const std::string command, oiiotool_command(job, options.output));
         fmt::print("{}", command);
         return kDone;
     }
     if (goes_on(job.plan))
-        fmt::print(stderr, "osiotool: note: these are the sums that {} is then made of\n", job.plan.space.id);
+        fmt::print(stderr, "note: these are the sums that {} is then made of\n", job.plan.space.id);
     fmt::print("{}", weights_csv(job));
     return kDone;
 }
