@@ -20,6 +20,13 @@ std::uint16_t half_bits(std::uint16_t ordered) {
     return static_cast<std::uint16_t>((ordered & 0x8000U) != 0 ? ordered & 0x7FFFU : ~unsigned{ordered});
 }
 
+std::uint64_t big_endian(const std::uint8_t* from) {
+    std::uint64_t out = 0;
+    for (std::size_t i = 0; i < sizeof out; ++i)
+        out = out << 8 | from[i];
+    return out;
+}
+
 using Block = std::array<std::uint16_t, kSide * kSide>;  ///< row after row
 
 /// The 15 differences run down the first column, then along each row's second, third and fourth
@@ -28,11 +35,11 @@ using Block = std::array<std::uint16_t, kSide * kSide>;  ///< row after row
 Block packed_block(const std::uint8_t* from) {
     const unsigned shift = from[2] >> 2;
     const unsigned bias = 0x20U << shift;
-    // 6 bits of from[2 ..] on, of which the first are the shift.
+    // Numbers of 6 bits from from[2] on, the shift first: ten begin in its first 8 bytes, the rest in the last 8.
+    const std::uint64_t front = big_endian(from + 2), back = big_endian(from + 6);
     const auto difference = [&](std::size_t i) {
-        const std::size_t bit = 6 * i, byte = 2 + bit / 8;
-        const unsigned two = unsigned{from[byte]} << 8 | (byte + 1 < kPackedBytes ? from[byte + 1] : 0U);
-        return (two >> (10 - bit % 8) & 0x3FU) << shift;
+        const std::uint64_t bits = i < 10 ? front >> (58 - 6 * i) : back >> (90 - 6 * i);
+        return static_cast<unsigned>(bits & 0x3FU) << shift;
     };
     std::array<unsigned, kSide * kSide> ordered{};
     ordered[0] = unsigned{from[0]} << 8 | from[1];
