@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <plugins/common/exr_metadata.h>
+#include <plugins/common/host_rows.h>
 #include <plugins/envi.imageio/input.h>
 
 #include <formats/envi/raw_rows.h>
@@ -98,22 +99,9 @@ bool EnviInput::read_native_scanlines(int subimage, int miplevel, int ybegin, in
     const lock_guard lock(*this);
     if (!m_file || subimage != 0 || miplevel != 0)
         return false;
-    if (ybegin < 0 || yend > m_spec.height || ybegin >= yend) {
-        errorfmt("rows {} to {} were asked for, the image has 0 to {}", ybegin, yend - 1, m_spec.height - 1);
-        return false;
-    }
-    try {
-        if (auto result =
-                envi::read_raw_rows(*m_file, {ybegin, yend - 1}, m_bands, static_cast<std::byte*>(data));
-            !result) {
-            errorfmt("{}", result.error().text());
-            return false;
-        }
-    } catch (const std::exception& error) {
-        errorfmt("{}", error.what());
-        return false;
-    }
-    return true;
+    return read_host_rows(*this, m_spec, ybegin, yend, [&](RowRange rows) {
+        return envi::read_raw_rows(*m_file, rows, m_bands, static_cast<std::byte*>(data));
+    });
 }
 
 }  // namespace osio::plugin

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <plugins/common/host_rows.h>
 #include <plugins/common/host_runner.h>
 #include <plugins/spectralexr.imageio/input.h>
 
@@ -155,21 +156,8 @@ bool SpectralExrInput::read_native_scanlines(int subimage, int miplevel, int ybe
     const lock_guard lock(*this);
     if (!seek_subimage(subimage, miplevel))
         return false;
-    if (ybegin < m_spec.y || yend > m_spec.y + m_spec.height || ybegin >= yend) {
-        errorfmt("rows {} to {} were asked for, the image has {} to {}", ybegin, yend - 1, m_spec.y,
-                 m_spec.y + m_spec.height - 1);
-        return false;
-    }
-    try {
-        if (auto result = read({ybegin, yend - 1}, static_cast<std::byte*>(data)); !result) {
-            errorfmt("{}", result.error().text());
-            return false;
-        }
-    } catch (const std::exception& error) {
-        errorfmt("{}", error.what());
-        return false;
-    }
-    return true;
+    return read_host_rows(*this, m_spec, ybegin, yend,
+                          [&](RowRange rows) { return read(rows, static_cast<std::byte*>(data)); });
 }
 
 Result<void> SpectralExrInput::read(RowRange rows, std::byte* out) {
