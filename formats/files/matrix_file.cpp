@@ -11,20 +11,6 @@ namespace {
 
 constexpr int kLargestCube = 129;
 
-std::string escaped(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        switch (c) {
-        case '&': out += "&amp;"; break;
-        case '<': out += "&lt;"; break;
-        case '>': out += "&gt;"; break;
-        case '"': out += "&quot;"; break;
-        default: out += c;
-        }
-    }
-    return out;
-}
-
 std::string row_text(const Vector3& row) {
     return format_double(row[0]) + " " + format_double(row[1]) + " " + format_double(row[2]);
 }
@@ -38,11 +24,11 @@ std::string clf(const BakedMatrix& baked) {
             id.add(value);
     std::string out =
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<ProcessList compCLFversion=\"3.0\" id=\"" + id.hex() +
-        "\" name=\"" + escaped(baked.title) + "\">\n";
+        "\" name=\"" + escaped_xml(baked.title) + "\">\n";
     for (const std::string& line : baked.description())
-        out += "    <Description>" + escaped(line) + "</Description>\n";
-    out += "    <InputDescriptor>" + escaped(baked.input) + "</InputDescriptor>\n";
-    out += "    <OutputDescriptor>" + escaped(baked.output) + "</OutputDescriptor>\n";
+        out += "    <Description>" + escaped_xml(line) + "</Description>\n";
+    out += "    <InputDescriptor>" + escaped_xml(baked.input) + "</InputDescriptor>\n";
+    out += "    <OutputDescriptor>" + escaped_xml(baked.output) + "</OutputDescriptor>\n";
     out += "    <Matrix inBitDepth=\"32f\" outBitDepth=\"32f\">\n        <Array dim=\"3 3\">\n";
     for (const Vector3& row : baked.matrix.rows)
         out += "            " + row_text(row) + "\n";

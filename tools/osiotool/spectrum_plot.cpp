@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tools/osiotool/spectrum_plot.h>
 
+#include <osio/base/text.h>
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,19 +46,6 @@ class Axis {
     double m_low, m_high, m_from, m_to;
 };
 
-std::string escaped(const std::string& text) {
-    std::string out;
-    for (const char c : text)
-        switch (c) {
-        case '&': out += "&amp;"; break;
-        case '<': out += "&lt;"; break;
-        case '>': out += "&gt;"; break;
-        case '"': out += "&quot;"; break;
-        default: out += c;
-        }
-    return out;
-}
-
 std::string grid(const Axis& x, const Axis& y) {
     std::string out;
     for (const double nm : x.ticks())
@@ -97,12 +86,12 @@ std::string spectrum_plot(const std::vector<image::BandSpread>& spread, const st
                        "height=\"{1}\" font-family=\"sans-serif\" font-size=\"12\">\n"
                        "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n"
                        "<text x=\"{2}\" y=\"24\" font-size=\"14\">{3}</text>\n",
-                       kWidth, kHeight, kLeft, escaped(title)) +
+                       kWidth, kHeight, kLeft, escaped_xml(title)) +
            grid(x, y) +
            fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"middle\">wavelength, nm</text>\n"
                        "<text transform=\"translate(18 {}) rotate(-90)\" text-anchor=\"middle\">{}</text>\n",
                        (kLeft + kWidth - kRight) / 2, kHeight - 14, (kTop + kHeight - kBottom) / 2,
-                       escaped(quantity)) +
+                       escaped_xml(quantity)) +
            fmt::format("<polygon points=\"{}{}\" fill=\"#2a6fb0\" fill-opacity=\"0.2\"/>\n"
                        "<polyline points=\"{}\" fill=\"none\" stroke=\"#2a6fb0\" stroke-width=\"1.5\"/>\n"
                        "<g fill=\"#2a6fb0\">\n{}</g>\n</svg>\n",

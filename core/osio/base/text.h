@@ -16,6 +16,9 @@ namespace osio {
 /// Equal up to the case of ASCII letters.
 [[nodiscard]] bool iequals(std::string_view a, std::string_view b);
 
+/// Text as XML takes it, in elements and attributes.
+[[nodiscard]] std::string escaped_xml(std::string_view text);
+
 /// ASCII letters in lower case, all else as it is.
 [[nodiscard]] std::string to_lower(std::string_view text);
 
