@@ -98,11 +98,9 @@ Result<Choice> choose(const Request& request, bool everything) {
     CollapseRequest words;
     words.part = request.part;
     words.set = request.set;
-    const auto selection = select_set(out.image->summaries(), words);
-    if (!selection)
-        return fail_in(out.image->path(), selection.error());
-    out.part_index = selection->part;
-    out.set = out.part().layout.sets[selection->set];
+    OSIO_TRY(const Selection selection, out.image->select(words));
+    out.part_index = selection.part;
+    out.set = out.part().layout.sets[selection.set];
     if (out.set.bands.empty())
         return fail(ErrorCode::Unsupported, "set " + out.set.name() + " has reradiation only",
                     out.image->path());

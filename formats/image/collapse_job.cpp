@@ -46,19 +46,15 @@ Result<CollapseJob> open_collapse(const std::string& path, const CollapseRequest
 
 Result<CollapseJob> prepare_collapse(std::shared_ptr<const SpectralImage> file,
                                      const CollapseRequest& request, const TextLoader& load_text) {
-    const auto summaries = file->summaries();
-    const auto selection = select_set(summaries, request);
-    if (!selection)
-        return fail_in(file->path(), selection.error());
-    const Part& part = file->parts()[selection->part];
+    OSIO_TRY(const Selection selection, file->select(request));
+    const Part& part = file->parts()[selection.part];
     const ChannelLayout& layout = part.layout;
-    const SpectralSet& set = layout.sets[selection->set];
+    const SpectralSet& set = layout.sets[selection.set];
     auto plan = make_plan(set, part.metadata, request, load_text);
     if (!plan)
         return fail_in(file->path(), std::move(plan).error());
 
-    CollapseJob job{std::move(file), selection->part, std::move(*plan), layout.alpha_of(set),
-                    layout.warnings};
+    CollapseJob job{std::move(file), selection.part, std::move(*plan), layout.alpha_of(set), layout.warnings};
     if (job.alpha && job.part().channels[*job.alpha].subsampled)
         return fail(ErrorCode::Unsupported, "alpha is sub-sampled", job.file->path());
     job.warnings.insert(job.warnings.end(), job.plan.warnings.begin(), job.plan.warnings.end());

@@ -21,6 +21,13 @@ std::vector<PartSummary> SpectralImage::summaries() const {
     return out;
 }
 
+Result<Selection> SpectralImage::select(const CollapseRequest& request) const {
+    const auto selection = select_set(summaries(), request);
+    if (!selection)
+        return fail_in(m_path, selection.error());
+    return *selection;
+}
+
 TextAttributes text_attributes(const Imf::Header& header) {
     TextAttributes out;
     for (auto a = header.begin(); a != header.end(); ++a)

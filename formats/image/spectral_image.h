@@ -80,6 +80,9 @@ class SpectralImage {
 
     [[nodiscard]] std::vector<PartSummary> summaries() const;
 
+    /// select_set() of this file, whose name the refusals say.
+    [[nodiscard]] Result<Selection> select(const CollapseRequest& request) const;
+
     /// "OpenEXR", "ENVI".
     [[nodiscard]] virtual std::string_view format() const = 0;
 

@@ -90,6 +90,7 @@ class Spectrum(OsioCase):
                                   (["left"], 2, "no place"), (["1", "up"], 2, "no place"), (["5x5"], 2, "no place"),
                                   (["9999999999", "1"], 2, "no place"), (["1", "2", "3"], 2, ""),
                                   (["0", "110", "-o", "a.txt"], 2, ".csv nor a .svg"),
+                                  (["0", "110", "--range", "-o", "a.svg"], 2, "--range"),
                                   (["0", "110", "--set", "S0"], 1, "S0"),
                                   (["0", "110", "-o", "none/a.csv"], 5, "none/a.csv")):
             self.assertIn(said, self.osiotool("spectrum", "a.exr", *words, code=code).stderr)

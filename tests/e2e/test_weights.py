@@ -57,6 +57,11 @@ class Weights(OsioCase):
             self.assertIn("more than sums", self.osiotool("weights", *words, "--oiiotool", code=2).stderr)
             self.assertIn("sums that", self.osiotool("weights", *words).stderr)
         self.osiotool("weights", "a.exr", "--to", "xyz", code=1)
+        self.assertIn("--oiiotool", self.osiotool("weights", "a.exr", *WORDS, "-o", "o.exr", code=2).stderr)
+        self.osiotool("convert", "a.exr", "cube.hdr", "--quiet")
+        self.assertIn("ENVI", self.osiotool("weights", "cube.hdr", *WORDS, "--oiiotool", code=1).stderr)
+        for name in ("cube.hdr", "cube.img"):
+            os.remove(self.path(name))
         self.assertEqual(os.listdir(self.folder), ["a.exr"])
 
 

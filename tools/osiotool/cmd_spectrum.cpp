@@ -75,10 +75,12 @@ std::string place_text(const image::Window& region) {
 
 std::string csv_of(const std::vector<image::BandSpread>& spread, bool with_range) {
     std::string out = with_range ? "nm,mean,minimum,maximum\n" : "nm,value\n";
-    for (const image::BandSpread& band : spread)
-        out += with_range
-                   ? fmt::format("{},{},{},{}\n", band.wavelength_nm, band.mean, band.minimum, band.maximum)
-                   : fmt::format("{},{}\n", band.wavelength_nm, band.mean);
+    for (const image::BandSpread& band : spread) {
+        out += format_double(band.wavelength_nm) + "," + format_double(band.mean);
+        if (with_range)
+            out += "," + format_double(band.minimum) + "," + format_double(band.maximum);
+        out += "\n";
+    }
     return out;
 }
 
@@ -88,21 +90,23 @@ Result<ExitCode> run_spectrum(const SpectrumOptions& options) {
     CollapseRequest request;
     request.part = options.part;
     request.set = options.set;
+    const bool plot = to_lower(options.output).ends_with(".svg");
+    if (!options.output.empty() && !plot && !to_lower(options.output).ends_with(".csv"))
+        return fail(ErrorCode::Usage, "\"" + options.output + "\" is neither a .csv nor a .svg");
+    if (plot && options.range)
+        return fail(ErrorCode::Usage, "--range is for tables; a plot always shows the range");
     OSIO_TRY(const auto file, image::open_image(options.input));
-    const auto selection = select_set(file->summaries(), request);
-    if (!selection)
-        return fail_in(file->path(), selection.error());
-    const image::Part& part = file->parts()[selection->part];
-    const SpectralSet& set = part.layout.sets[selection->set];
+    OSIO_TRY(const Selection selection, file->select(request));
+    const image::Part& part = file->parts()[selection.part];
+    const SpectralSet& set = part.layout.sets[selection.set];
     OSIO_TRY(const image::Window region, region_of(options.place, part.data_window));
-    OSIO_TRY(const auto spread, image::region_spectrum(*file, *selection, region));
+    OSIO_TRY(const auto spread, image::region_spectrum(*file, selection, region));
+    for (const std::string& warning : part.layout.warnings)
+        fmt::print(stderr, "warning: {}\n", warning);
     for (const image::BandSpread& band : spread)
         if (band.undefined != 0)
             fmt::print(stderr, "warning: {} of the samples at {:g} nm are NaN or infinite and are left out\n",
                        band.undefined, band.wavelength_nm);
-    const bool plot = to_lower(options.output).ends_with(".svg");
-    if (!options.output.empty() && !plot && !to_lower(options.output).ends_with(".csv"))
-        return fail(ErrorCode::Usage, "\"" + options.output + "\" is neither a .csv nor a .svg");
     const std::string text =
         plot ? spectrum_plot(spread, fmt::format("{}, {}, {}", options.input, set.name(), place_text(region)),
                              std::string(quantity_name(set.quantity())))

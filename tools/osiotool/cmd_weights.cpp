@@ -3,7 +3,6 @@
 #include <tools/osiotool/host_loader.h>
 #include <tools/osiotool/request_words.h>
 
-#include <formats/exr/exr_file.h>
 #include <formats/files/text_file.h>
 #include <formats/image/collapse_job.h>
 
@@ -54,6 +53,10 @@ Result<std::string> oiiotool_command(const image::CollapseJob& job, const std::s
                     "to=" + plan.space.id +
                         " is more than sums over bands, which are all that "
                         "oiiotool's --chsum has; name a linear space and convert its result");
+    if (job.file->format() != "OpenEXR")
+        return fail(ErrorCode::Unsupported,
+                    "is " + std::string(job.file->format()) + ", which a stock oiiotool does not read",
+                    job.file->path());
     OSIO_TRY(const host::HostModule* const module, load_host_module());
     OSIO_TRY(const auto order, module->channel_order(job.file->path(), job.part_index));
     std::map<std::string, std::size_t> bands;
@@ -64,36 +67,37 @@ Result<std::string> oiiotool_command(const image::CollapseJob& job, const std::s
         out += fmt::format(" --subimage {}", job.part_index);
     std::size_t found = 0;
     for (std::size_t row = 0; row < plan.weights.rows(); ++row) {
-        std::string weights;
+        std::vector<std::string> weights;
         for (const std::string& name : order) {
             const auto band = bands.find(name);
             found += band != bands.end();
-            weights += (weights.empty() ? "" : ",") +
-                       (band == bands.end() ? "0" : format_double(plan.weights.at(row, band->second)));
+            weights.push_back(band == bands.end() ? "0" : format_double(plan.weights.at(row, band->second)));
         }
-        out += fmt::format(" \\\n  --dup --chsum:weight={} --swap", weights);
+        out += fmt::format(" \\\n  --dup --chsum:weight={} --swap", join(weights, ","));
     }
     if (found != plan.weights.rows() * plan.bands.size())
         return fail(ErrorCode::Unsupported, "OpenImageIO's own reader calls some of its channels otherwise",
                     job.file->path());
-    std::string names;
-    for (const std::string& name : plan.channel_names())
-        names += (names.empty() ? "" : ",") + name;
     out += " \\\n  --pop";
     if (plan.weights.rows() > 1)
         out += fmt::format(" --chappend:n={}", plan.weights.rows());
-    return out + fmt::format(" --chnames {} -d float -o {}\n", names, quoted(output));
+    return out +
+           fmt::format(" --chnames {} -d float -o {}\n", join(plan.channel_names(), ","), quoted(output));
 }
 
 }  // namespace
 
 Result<ExitCode> run_weights(const WeightsOptions& options) {
+    if (!options.oiiotool && !options.output.empty())
+        return fail(ErrorCode::Usage,
+                    "-o is the output of the command that --oiiotool prints; the table goes to stdout");
     OSIO_TRY(const CollapseRequest request, request_of(options.request));
     OSIO_TRY(const auto job, image::open_collapse(options.input, request, files::text_loader({})));
     for (const std::string& warning : job.warnings)
         fmt::print(stderr, "warning: {}\n", warning);
     if (options.oiiotool) {
-        OSIO_TRY(const std::string command, oiiotool_command(job, options.output));
+        OSIO_TRY(const std::string command,
+                 oiiotool_command(job, options.output.empty() ? "out.exr" : options.output));
         fmt::print("{}", command);
         return kDone;
     }

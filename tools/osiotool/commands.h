@@ -99,8 +99,8 @@ struct BakeOptions {
 struct WeightsOptions {
     std::string input;
     RequestWords request;
-    bool oiiotool = false;           ///< a command instead of a table
-    std::string output = "out.exr";  ///< of that command
+    bool oiiotool = false;  ///< a command instead of a table
+    std::string output;     ///< of that command; empty: out.exr
 };
 
 struct SpectrumOptions {
