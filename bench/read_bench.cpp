@@ -80,7 +80,7 @@ void write_image(const std::string& path, int bands, Imf::PixelType type, Imf::C
     file.writePixels(contest().height);
 }
 
-image::PlaneChannels every_channel(const exr::ExrPart& part) {
+image::PlaneChannels every_channel(const image::Part& part) {
     image::PlaneChannels out;
     for (std::size_t c = 0; c < part.channels.size(); ++c)
         out.emplace_back(c);
@@ -113,7 +113,7 @@ void decode_by_cpp_api(const std::string& path, std::vector<char>& memory) {
 /// OpenEXRCore's own stages, a reader and a block for each thread.
 void decode_by_core(const std::string& path) {
     const auto file = must(exr::ExrFile::open(path));
-    const exr::ExrPart& part = file->parts()[0];
+    const image::Part& part = file->parts()[0];
     const exr::BlockJob job{file, 0, every_channel(part), exr::block_grid(part)};
     std::vector<std::unique_ptr<BlockReader>> readers(contest().threads);
     spread(job.grid.block_count(), [&](unsigned worker, std::size_t block) {

@@ -2,7 +2,7 @@
 //
 // Any text as an ENVI header: refused, or its lists fit its bands and its size cannot overflow.
 #include <formats/envi/envi_header.h>
-#include <formats/exr/limits.h>
+#include <formats/image/limits.h>
 
 #include <fuzz/target.h>
 #include <string_view>
@@ -16,7 +16,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
                         fits(header->bad.size()) && fits(header->gain.size()) && fits(header->offset.size()));
     osio::fuzz::require(header->data_size() / header->bands / header->lines / header->samples ==
                         osio::envi::data_bytes(header->type));
-    osio::fuzz::require(header->data_size() <= osio::exr::kMostPartBytes);
+    osio::fuzz::require(header->data_size() <= osio::image::kMostPartBytes);
     for (const double nm : header->wavelengths_nm)
         osio::fuzz::require(nm >= 0 && nm < 1e301);
     return 0;

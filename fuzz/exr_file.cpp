@@ -27,7 +27,7 @@ int LLVMFuzzerTestOneInput(const std::uint8_t* bytes, std::size_t count) {
         return 0;
     OneWorker runner;
     for (std::size_t index = 0; index < (*file)->parts().size(); ++index) {
-        const osio::exr::ExrPart& part = (*file)->parts()[index];
+        const osio::image::Part& part = (*file)->parts()[index];
         const auto pixels = static_cast<std::uint64_t>(part.data_window.width()) *
                             static_cast<std::uint64_t>(part.data_window.height());
         if (pixels * part.channels.size() > kMostBytes)

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/envi/attribute_fields.h>
-#include <formats/exr/limits.h>
+#include <formats/image/limits.h>
 
 #include <osio/base/text.h>
 
@@ -76,7 +76,7 @@ void insert_field(const Field& field, Imf::Header& header) {
         const auto space = rest.find(' ');
         // Empty names end a header; OpenEXR refuses longer ones.
         if (space != std::string_view::npos && space + 1 < rest.size() &&
-            rest.size() - space - 1 <= exr::kMostNameBytes) {
+            rest.size() - space - 1 <= image::kMostNameBytes) {
             const std::string name(rest.substr(space + 1));
             const bool fresh = header.find(name) == header.end() ||
                                header.find(name).attribute().typeName() == std::string(rest.substr(0, space));
@@ -85,7 +85,7 @@ void insert_field(const Field& field, Imf::Header& header) {
         }
     }
     const std::string name = std::string(kAttributePrefix) + field.key;
-    if (name.size() <= exr::kMostNameBytes && name.find('\0') == std::string::npos)
+    if (name.size() <= image::kMostNameBytes && name.find('\0') == std::string::npos)
         header.insert(name, Imf::StringAttribute(field.value));
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/envi/block_rows.h>
 #include <formats/envi/sample_rows.h>
-#include <formats/exr/limits.h>
+#include <formats/image/limits.h>
 
 #include <algorithm>
 
@@ -135,9 +135,10 @@ Result<std::unique_ptr<BlockSource>> make_row_source(std::shared_ptr<const EnviF
     const std::uint64_t stored = header.interleave == Interleave::Bsq ? 1 : header.bands;
     const std::uint64_t row_bytes =
         header.samples * (wanted * sizeof(float) + stored * data_bytes(header.type));
-    if (row_bytes > exr::kMostBlockBytes)
+    if (row_bytes > image::kMostBlockBytes)
         return fail(ErrorCode::Damaged,
-                    "a row needs more than " + std::to_string(exr::kMostBlockBytes) + " bytes", file->path());
+                    "a row needs more than " + std::to_string(image::kMostBlockBytes) + " bytes",
+                    file->path());
     const std::uint64_t rows =
         grain == image::Grain::Chunk ? 1 : std::clamp<std::uint64_t>(kBlockBytes / row_bytes, 1, kMostRows);
     return std::make_unique<RowSource>(

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/envi/block_rows.h>
 #include <formats/envi/envi_file.h>
-#include <formats/exr/limits.h>
 #include <formats/files/text_file.h>
+#include <formats/image/limits.h>
 
 #include <osio/base/text.h>
 #include <osio/layout/presentation.h>

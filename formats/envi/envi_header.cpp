@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/envi/envi_header.h>
 #include <formats/envi/spectral_keys.h>
-#include <formats/exr/limits.h>
+#include <formats/image/limits.h>
 
 #include <osio/base/text.h>
 
@@ -146,7 +146,7 @@ class Structure {
 
     /// Everything is counted in 64 bits without overflow before anything is allocated.
     [[nodiscard]] Result<void> check_sizes() const {
-        constexpr auto kMostSide = static_cast<std::uint64_t>(exr::kMostSidePixels);
+        constexpr auto kMostSide = static_cast<std::uint64_t>(image::kMostSidePixels);
         const auto too_much = [](std::string_view what, std::uint64_t found, std::uint64_t most) {
             return fail(ErrorCode::Damaged, "the header promises " + std::to_string(found) + " " +
                                                 std::string(what) + ", more than the limit of " +
@@ -156,13 +156,13 @@ class Structure {
             return too_much("samples", m_out.samples, kMostSide);
         if (m_out.lines > kMostSide)
             return too_much("lines", m_out.lines, kMostSide);
-        if (m_out.bands > exr::kMostChannels)
-            return too_much("bands", m_out.bands, exr::kMostChannels);
+        if (m_out.bands > image::kMostChannels)
+            return too_much("bands", m_out.bands, image::kMostChannels);
         const std::uint64_t pixel_bytes = m_out.bands * data_bytes(m_out.type);
-        if (m_out.samples * m_out.lines > exr::kMostPartBytes / pixel_bytes)
-            return too_much("pixels", m_out.samples * m_out.lines, exr::kMostPartBytes / pixel_bytes);
-        if (m_out.header_offset > exr::kMostPartBytes)
-            return too_much("bytes before the data", m_out.header_offset, exr::kMostPartBytes);
+        if (m_out.samples * m_out.lines > image::kMostPartBytes / pixel_bytes)
+            return too_much("pixels", m_out.samples * m_out.lines, image::kMostPartBytes / pixel_bytes);
+        if (m_out.header_offset > image::kMostPartBytes)
+            return too_much("bytes before the data", m_out.header_offset, image::kMostPartBytes);
         return {};
     }
 

@@ -82,7 +82,7 @@ struct EnviHeader {
 
 /// Understands the text of a header. Keys in any case and spelling (formats.md lists the variants). NotSpectral
 /// where it is no ENVI header; Damaged where it lacks samples, lines, bands, data type or interleave, a number
-/// is none, a list has not one item a band, or sizes exceed formats/exr/limits.h; Unsupported for complex
+/// is none, a list has not one item a band, or sizes exceed formats/image/limits.h; Unsupported for complex
 /// numbers, compressed data and spectral libraries.
 [[nodiscard]] Result<EnviHeader> parse_header(std::string_view text);
 

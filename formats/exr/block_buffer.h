@@ -13,10 +13,10 @@ namespace osio::exr {
 /// reader and used again for every block: fresh pages cost as much as half a decode.
 class BlockBuffer {
   public:
-    BlockBuffer(const ExrPart& part, const PlaneChannels& planes, const BlockGrid& grid);
+    BlockBuffer(const image::Part& part, const PlaneChannels& planes, const BlockGrid& grid);
 
     /// Bytes that a buffer for such blocks takes.
-    [[nodiscard]] static std::uint64_t bytes_needed(const ExrPart& part, const PlaneChannels& planes,
+    [[nodiscard]] static std::uint64_t bytes_needed(const image::Part& part, const PlaneChannels& planes,
                                                     const BlockGrid& grid);
 
     /// Where a plane starts; null for a plane that nobody reads.

@@ -19,7 +19,7 @@ struct BlockJob {
 [[nodiscard]] Result<std::unique_ptr<BlockReader>> make_own_reader(const BlockJob& job);
 
 /// True where stages of our own can unpack a part.
-[[nodiscard]] bool has_own_codec(const ExrPart& part);
+[[nodiscard]] bool has_own_codec(const image::Part& part);
 
 /// Through the C++ API. Each reader opens the file for itself: the API serialises reads of one file.
 [[nodiscard]] Result<std::unique_ptr<BlockReader>> make_imf_reader(const BlockJob& job);

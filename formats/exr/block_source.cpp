@@ -29,11 +29,11 @@ using MakeReader = Result<std::unique_ptr<BlockReader>> (*)(const BlockJob&);
 /// What decodes a part best: stages of our own, faster than OpenEXR 3.1.5's; else the C++ API, which
 /// is 2-4 times faster than its OpenEXRCore at PIZ and has DWA, which that lacks.
 MakeReader best_reader(const BlockJob& job) {
-    const ExrPart& part = job.file->parts()[job.part];
+    const image::Part& part = job.file->parts()[job.part];
     const bool own = job.file->context() != nullptr && has_own_codec(part) &&
                      std::none_of(part.channels.begin(), part.channels.end(),
-                                  [](const ExrChannel& channel) { return channel.subsampled; }) &&
-                     LineReader::bytes_needed(job) <= kMostBlockBytes;
+                                  [](const image::Channel& channel) { return channel.subsampled; }) &&
+                     LineReader::bytes_needed(job) <= image::kMostBlockBytes;
     return own ? make_own_reader : make_imf_reader;
 }
 
@@ -80,7 +80,7 @@ int BlockGrid::row_count(std::size_t block) const {
         std::min<std::int64_t>(rows_per_block, std::int64_t{window.max_y} - first_row(block) + 1));
 }
 
-BlockGrid block_grid(const ExrPart& part, Grain grain) {
+BlockGrid block_grid(const image::Part& part, Grain grain) {
     if (part.tiled)
         return {part.data_window, static_cast<int>(std::min<std::int64_t>(part.header.tileDescription().ySize,
                                                                           part.data_window.height()))};
@@ -90,7 +90,7 @@ BlockGrid block_grid(const ExrPart& part, Grain grain) {
 
 Result<std::unique_ptr<BlockSource>> make_block_source(std::shared_ptr<const ExrFile> file, std::size_t part,
                                                        PlaneChannels planes, Grain grain) {
-    const ExrPart& header = file->parts()[part];
+    const image::Part& header = file->parts()[part];
     if (header.deep)
         return fail(ErrorCode::Unsupported, "the part is deep (several samples a pixel)", file->path());
     for (const auto channel : planes)
@@ -100,14 +100,14 @@ Result<std::unique_ptr<BlockSource>> make_block_source(std::shared_ptr<const Exr
     const BlockGrid grid = block_grid(header, grain);
     if (grid.rows_per_block <= 0)
         return fail(ErrorCode::Damaged, "tiles of no rows", file->path());
-    if (BlockBuffer::bytes_needed(header, planes, grid) > kMostBlockBytes)
+    if (BlockBuffer::bytes_needed(header, planes, grid) > image::kMostBlockBytes)
         return fail(ErrorCode::Damaged,
-                    "a row of chunks needs more than " + std::to_string(kMostBlockBytes) + " bytes",
+                    "a row of chunks needs more than " + std::to_string(image::kMostBlockBytes) + " bytes",
                     file->path());
     return std::make_unique<ExrBlockSource>(BlockJob{std::move(file), part, std::move(planes), grid});
 }
 
-BlockBuffer::BlockBuffer(const ExrPart& part, const PlaneChannels& planes, const BlockGrid& grid)
+BlockBuffer::BlockBuffer(const image::Part& part, const PlaneChannels& planes, const BlockGrid& grid)
     : m_width(grid.window.width()), m_memory(bytes_needed(part, planes, grid)) {
     const std::size_t samples =
         static_cast<std::size_t>(grid.window.width()) * static_cast<std::size_t>(grid.rows_per_block);
@@ -123,7 +123,7 @@ BlockBuffer::BlockBuffer(const ExrPart& part, const PlaneChannels& planes, const
     }
 }
 
-std::uint64_t BlockBuffer::bytes_needed(const ExrPart& part, const PlaneChannels& planes,
+std::uint64_t BlockBuffer::bytes_needed(const image::Part& part, const PlaneChannels& planes,
                                         const BlockGrid& grid) {
     const std::uint64_t samples =
         static_cast<std::uint64_t>(grid.window.width()) * static_cast<std::uint64_t>(grid.rows_per_block);

@@ -23,7 +23,7 @@ struct BlockGrid {
 
 /// The grid of a part, decided by its compression and tiles: Grain::Chunk is one chunk of
 /// scanlines.
-[[nodiscard]] BlockGrid block_grid(const ExrPart& part, Grain grain = Grain::Block);
+[[nodiscard]] BlockGrid block_grid(const image::Part& part, Grain grain = Grain::Block);
 
 /// Decodes channels of one part into planar blocks: by stages of our own, or through the C++ API where
 /// there are none (PIZ, DWA, parts with sub-sampled channels).

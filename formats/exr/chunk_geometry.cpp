@@ -45,14 +45,14 @@ std::uint64_t most_expansion(Imf::Compression compression) {
     }
 }
 
-std::uint64_t sample_bytes_of(const ExrPart& part, std::uint64_t width, std::uint64_t height) {
+std::uint64_t sample_bytes_of(const image::Part& part, std::uint64_t width, std::uint64_t height) {
     std::uint64_t pixel = 0;
-    for (const ExrChannel& channel : part.channels)
+    for (const image::Channel& channel : part.channels)
         pixel += sample_bytes(channel.type);
     return width * height * pixel;
 }
 
-ChunkSize chunk_size(const ExrPart& part) {
+ChunkSize chunk_size(const image::Part& part) {
     if (part.tiled) {
         const Imf::TileDescription& tiles = part.header.tileDescription();
         return {tiles.xSize, tiles.ySize};
@@ -61,7 +61,7 @@ ChunkSize chunk_size(const ExrPart& part) {
             static_cast<std::uint64_t>(lines_of_chunk(part.header.compression()))};
 }
 
-std::uint64_t full_resolution_chunks(const ExrPart& part) {
+std::uint64_t full_resolution_chunks(const image::Part& part) {
     const ChunkSize size = chunk_size(part);
     const auto count = [](int pixels, std::uint64_t step) {
         return (static_cast<std::uint64_t>(pixels) + step - 1) / step;
@@ -75,31 +75,31 @@ std::uint64_t scanline_chunks(const Imf::Header& header) {
     return static_cast<std::uint64_t>((rows + lines - 1) / lines);
 }
 
-Result<void> check_limits(const ExrPart& part, std::uint64_t file_bytes) {
+Result<void> check_limits(const image::Part& part, std::uint64_t file_bytes) {
     const auto width = static_cast<std::uint64_t>(part.data_window.width());
     const auto height = static_cast<std::uint64_t>(part.data_window.height());
     const ChunkSize chunk = chunk_size(part);
-    if (chunk.width == 0 || chunk.height == 0 || chunk.width > kMostSidePixels ||
-        chunk.height > kMostSidePixels)
+    if (chunk.width == 0 || chunk.height == 0 || chunk.width > image::kMostSidePixels ||
+        chunk.height > image::kMostSidePixels)
         return fail(ErrorCode::Damaged, "tiles of " + std::to_string(chunk.width) + "x" +
                                             std::to_string(chunk.height) + " pixels");
     if (part.deep)
         return {};
     // Two sides stay below 2^60, and with 2^18 bytes a pixel below 2^63: nothing overflows.
-    constexpr std::uint64_t kMostPixels = kMostPartBytes / 2;
+    constexpr std::uint64_t kMostPixels = image::kMostPartBytes / 2;
     if (width * height > kMostPixels || chunk.width * chunk.height > kMostPixels)
         return fail(ErrorCode::Damaged, "has a part or a tile of more than " + std::to_string(kMostPixels) +
                                             " pixels, more than the limit");
     const std::uint64_t whole = sample_bytes_of(part, width, height);
     const std::uint64_t one = part.tiled ? sample_bytes_of(part, chunk.width, chunk.height)
                                          : sample_bytes_of(part, width, std::min(height, chunk.height));
-    if (whole > kMostPartBytes)
-        return too_much("a part", whole, kMostPartBytes);
+    if (whole > image::kMostPartBytes)
+        return too_much("a part", whole, image::kMostPartBytes);
     if (one > kMostChunkBytes)
         return too_much(part.tiled ? "a tile" : "a chunk", one, kMostChunkBytes);
     const std::uint64_t held = std::max(kFreeBytes, most_expansion(part.header.compression()) * file_bytes);
     const bool subsampled = std::any_of(part.channels.begin(), part.channels.end(),
-                                        [](const ExrChannel& channel) { return channel.subsampled; });
+                                        [](const image::Channel& channel) { return channel.subsampled; });
     if (std::max(subsampled ? 0 : whole, one) > held)
         return fail(ErrorCode::Damaged, "claims " + std::to_string(std::max(whole, one)) +
                                             " bytes of pixels, more than " + std::to_string(file_bytes) +

@@ -17,7 +17,8 @@ namespace osio::exr {
 [[nodiscard]] std::uint64_t most_expansion(Imf::Compression compression);
 
 /// Bytes of the samples in a box of pixels, sub-sampled channels counted as if they were whole.
-[[nodiscard]] std::uint64_t sample_bytes_of(const ExrPart& part, std::uint64_t width, std::uint64_t height);
+[[nodiscard]] std::uint64_t sample_bytes_of(const image::Part& part, std::uint64_t width,
+                                            std::uint64_t height);
 
 /// Width and height of the part's chunks before the window cuts them: tiles, or lines.
 struct ChunkSize {
@@ -25,16 +26,16 @@ struct ChunkSize {
     std::uint64_t height = 0;
 };
 
-[[nodiscard]] ChunkSize chunk_size(const ExrPart& part);
+[[nodiscard]] ChunkSize chunk_size(const image::Part& part);
 
 /// Chunks of the part's full resolution, which come first in its table.
-[[nodiscard]] std::uint64_t full_resolution_chunks(const ExrPart& part);
+[[nodiscard]] std::uint64_t full_resolution_chunks(const image::Part& part);
 
 /// The same for a scanline header of its own.
 [[nodiscard]] std::uint64_t scanline_chunks(const Imf::Header& header);
 
 /// Refuses (Damaged) windows, tiles and sums of bytes beyond our limits, and more than a file of
 /// `file_bytes` can hold.
-[[nodiscard]] Result<void> check_limits(const ExrPart& part, std::uint64_t file_bytes);
+[[nodiscard]] Result<void> check_limits(const image::Part& part, std::uint64_t file_bytes);
 
 }  // namespace osio::exr

@@ -30,7 +30,7 @@ Result<void> expect(std::string_view what, std::int64_t found, std::int64_t expe
 }  // namespace
 
 Result<std::shared_ptr<const ChunkMap>> ChunkMap::load(files::RawFile file, const RawHeaders& headers,
-                                                       const std::vector<ExrPart>& parts,
+                                                       const std::vector<image::Part>& parts,
                                                        const std::vector<std::uint64_t>& counts) {
     const std::shared_ptr<ChunkMap> map(new ChunkMap(std::move(file)));
     map->m_multi_part = headers.multi_part;
@@ -42,11 +42,11 @@ Result<std::shared_ptr<const ChunkMap>> ChunkMap::load(files::RawFile file, cons
     return map;
 }
 
-Result<void> ChunkMap::read_tables(std::uint64_t at, const std::vector<ExrPart>& parts,
+Result<void> ChunkMap::read_tables(std::uint64_t at, const std::vector<image::Part>& parts,
                                    const std::vector<std::uint64_t>& counts) {
     std::string bytes;
     for (std::size_t index = 0; index < parts.size(); ++index) {
-        const ExrPart& header = parts[index];
+        const image::Part& header = parts[index];
         Part part;
         part.tiled = header.tiled;
         part.min_y = header.data_window.min_y;

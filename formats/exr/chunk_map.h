@@ -3,8 +3,8 @@
 
 #include <formats/exr/checksum.h>
 #include <formats/exr/exr_file.h>
-#include <formats/files/raw_file.h>
 #include <formats/exr/raw_header.h>
+#include <formats/files/raw_file.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -22,7 +22,7 @@ class ChunkMap {
     /// Reads the tables. `counts`: chunks of each part. Damaged where they do not fit the file or the
     /// windows, or where the header's own checksum differs.
     [[nodiscard]] static Result<std::shared_ptr<const ChunkMap>>
-    load(files::RawFile file, const RawHeaders& headers, const std::vector<ExrPart>& parts,
+    load(files::RawFile file, const RawHeaders& headers, const std::vector<image::Part>& parts,
          const std::vector<std::uint64_t>& counts);
 
     /// Looks at one chunk of a flat part: inside the file, apart from others, with the coordinates that
@@ -62,7 +62,7 @@ class ChunkMap {
 
     explicit ChunkMap(files::RawFile file) : m_file(std::move(file)) {}
 
-    [[nodiscard]] Result<void> read_tables(std::uint64_t at, const std::vector<ExrPart>& parts,
+    [[nodiscard]] Result<void> read_tables(std::uint64_t at, const std::vector<image::Part>& parts,
                                            const std::vector<std::uint64_t>& counts);
     [[nodiscard]] Result<void> adopt_checksum(const RawHeaders& headers);
     [[nodiscard]] std::size_t chunk_header_bytes(const Part& part) const;

@@ -31,7 +31,7 @@ class ChunkReader : public BlockReader {
 
     [[nodiscard]] const BlockJob& job() const { return m_job; }
 
-    [[nodiscard]] const ExrPart& part() const { return m_part; }
+    [[nodiscard]] const image::Part& part() const { return m_part; }
 
     [[nodiscard]] exr_const_context_t context() const { return m_job.file->context(); }
 
@@ -48,7 +48,7 @@ class ChunkReader : public BlockReader {
     [[nodiscard]] Result<void> decode_checked(const exr_chunk_info_t& chunk, const Place& place);
 
     BlockJob m_job;
-    const ExrPart& m_part;
+    const image::Part& m_part;
     BlockBuffer m_buffer;
 };
 

@@ -72,15 +72,15 @@ Window window_of(const Imath::Box2i& box) {
 bool plausible(const Imath::Box2i& box) {
     const auto width = std::int64_t{box.max.x} - box.min.x + 1;
     const auto height = std::int64_t{box.max.y} - box.min.y + 1;
-    return width > 0 && height > 0 && width <= kMostSidePixels && height <= kMostSidePixels;
+    return width > 0 && height > 0 && width <= image::kMostSidePixels && height <= image::kMostSidePixels;
 }
 
 SampleType sample_type(Imf::PixelType type) {
     return type == Imf::HALF ? SampleType::Half : type == Imf::FLOAT ? SampleType::Float : SampleType::Uint;
 }
 
-std::vector<ExrChannel> channels_of(const Imf::Header& header) {
-    std::vector<ExrChannel> out;
+std::vector<image::Channel> channels_of(const Imf::Header& header) {
+    std::vector<image::Channel> out;
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c) {
         const Imf::Channel& channel = c.channel();
         out.push_back(
@@ -89,14 +89,14 @@ std::vector<ExrChannel> channels_of(const Imf::Header& header) {
     return out;
 }
 
-void warn_of_dialect(ExrPart& part) {
+void warn_of_dialect(image::Part& part) {
     const auto dialect = recognise_dialect(part.layout.channel_names, part.summary().attribute_names);
     if (dialect)
         part.layout.warnings.push_back("found " + *dialect + ": a dialect that is not read yet");
 }
 
-Result<ExrPart> understand(const Imf::Header& header, std::uint64_t file_bytes) {
-    ExrPart part;
+Result<image::Part> understand(const Imf::Header& header, std::uint64_t file_bytes) {
+    image::Part part;
     part.header = header;
     if (!plausible(header.dataWindow()) || !plausible(header.displayWindow()))
         return fail(ErrorCode::Damaged, "the data or display window is empty or too large");
@@ -107,13 +107,13 @@ Result<ExrPart> understand(const Imf::Header& header, std::uint64_t file_bytes) 
     part.tiled = header.hasType() ? Imf::isTiled(header.type()) : header.hasTileDescription();
     part.compression = compression_name(header.compression());
     part.channels = channels_of(header);
-    if (part.channels.size() > kMostChannels)
+    if (part.channels.size() > image::kMostChannels)
         return fail(ErrorCode::Damaged, std::to_string(part.channels.size()) +
                                             " channels, more than the limit of " +
-                                            std::to_string(kMostChannels));
+                                            std::to_string(image::kMostChannels));
     OSIO_CHECK_OK(check_limits(part, file_bytes));
     std::vector<std::string> names;
-    for (const ExrChannel& channel : part.channels)
+    for (const image::Channel& channel : part.channels)
         names.push_back(channel.name);
     part.layout = parse_channel_layout(names, DecimalMark::Comma);
     if (part.layout.sets.empty())
@@ -197,7 +197,7 @@ Result<void> ExrFile::read_headers(std::uint64_t file_bytes) {
         // 0: no threads of OpenEXR's global pool, which belongs to the host.
         const Imf::MultiPartInputFile file(path().c_str(), 0, false);
         for (int i = 0; i < file.parts(); ++i) {
-            OSIO_TRY(ExrPart part, understand(file.header(i), file_bytes));
+            OSIO_TRY(image::Part part, understand(file.header(i), file_bytes));
             add(std::move(part));
         }
     } catch (const std::bad_alloc&) {

@@ -18,10 +18,6 @@ namespace osio::exr {
 
 class ChunkMap;
 
-/// The words of formats/image, where an OpenEXR file has them: a part, its channels in the order of their
-/// names, as in the file, and which of them are read.
-using ExrPart = image::Part;
-using ExrChannel = image::Channel;
 using image::Grain;
 using image::PlaneChannels;
 using image::Window;

@@ -39,7 +39,7 @@ class ImfReader final : public BlockReader {
         for (std::size_t plane = 0; plane < m_job.planes.size(); ++plane) {
             if (!m_job.planes[plane])
                 continue;
-            const ExrChannel& channel = m_part.channels[*m_job.planes[plane]];
+            const image::Channel& channel = m_part.channels[*m_job.planes[plane]];
             out.insert(channel.name, Imf::Slice::Make(pixel_type(channel.type), m_buffer.plane(plane),
                                                       Imath::V2i(window.min_x, first_row), window.width(),
                                                       m_job.grid.rows_per_block));
@@ -48,7 +48,7 @@ class ImfReader final : public BlockReader {
     }
 
     BlockJob m_job;
-    const ExrPart& m_part;
+    const image::Part& m_part;
     BlockBuffer m_buffer;
     Imf::MultiPartInputFile m_file;
     Imf::InputPart m_input;

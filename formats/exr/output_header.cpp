@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/exr/checksum.h>
 #include <formats/exr/output_header.h>
+#include <formats/image/colour_attributes.h>
 
 #include <osio/base/text.h>
 
@@ -26,7 +27,8 @@ std::string config_text(const TransformSource& source) {
 
 /// Attributes that describe what a collapse replaces.
 bool is_replaced(std::string_view name) {
-    constexpr std::array<std::string_view, 2> kOwn{attribute::kChromaticities, attribute::kColorSpace};
+    constexpr std::array<std::string_view, 2> kOwn{image::attribute::kChromaticities,
+                                                   image::attribute::kColorSpace};
     return std::find(kOwn.begin(), kOwn.end(), name) != kOwn.end() || name.starts_with("spectral:");
 }
 
@@ -58,17 +60,17 @@ Imf::Header collapsed_header(const image::CollapseJob& job) {
             out.insert(a.name(), a.attribute());
     const OutputSpace& space = plan.space;
     if (has_primaries(space.kind) && !space.transform)
-        out.insert(attribute::kChromaticities,
+        out.insert(image::attribute::kChromaticities,
                    Imf::ChromaticitiesAttribute(Imf::Chromaticities(v2f(space.red), v2f(space.green),
                                                                     v2f(space.blue), v2f(space.white))));
     if (!space.color_space.empty())
-        out.insert(attribute::kColorSpace, Imf::StringAttribute(space.color_space));
-    out.insert(attribute::kRecipe, Imf::StringAttribute(recipe_text(plan.request)));
-    out.insert(attribute::kPlan, Imf::StringAttribute(plan.id));
+        out.insert(image::attribute::kColorSpace, Imf::StringAttribute(space.color_space));
+    out.insert(image::attribute::kRecipe, Imf::StringAttribute(recipe_text(plan.request)));
+    out.insert(image::attribute::kPlan, Imf::StringAttribute(plan.id));
     if (space.transform)
-        out.insert(attribute::kConfig, Imf::StringAttribute(config_text(space.transform->source())));
+        out.insert(image::attribute::kConfig, Imf::StringAttribute(config_text(space.transform->source())));
     if (!job.warnings.empty())
-        out.insert(attribute::kWarnings, Imf::StringAttribute(join(job.warnings, "\n")));
+        out.insert(image::attribute::kWarnings, Imf::StringAttribute(join(job.warnings, "\n")));
     out.compression() = Imf::ZIP_COMPRESSION;
     return out;
 }

@@ -9,9 +9,9 @@ namespace osio::exr {
 
 namespace {
 
-std::unique_ptr<ChunkCodec> codec_of(const ExrPart& part) {
+std::unique_ptr<ChunkCodec> codec_of(const image::Part& part) {
     std::vector<SampleType> channels;
-    for (const ExrChannel& channel : part.channels)
+    for (const image::Channel& channel : part.channels)
         channels.push_back(channel.type);
     switch (part.header.compression()) {
     case Imf::NO_COMPRESSION: return make_stored_codec();
@@ -26,7 +26,7 @@ std::unique_ptr<ChunkCodec> codec_of(const ExrPart& part) {
 }
 
 /// B44 keeps what is called perceptually linear as its logarithm, which only the C++ API undoes.
-bool is_logarithmic(const ExrPart& part) {
+bool is_logarithmic(const image::Part& part) {
     const auto compression = part.header.compression();
     if (compression != Imf::B44_COMPRESSION && compression != Imf::B44A_COMPRESSION)
         return false;
@@ -39,13 +39,13 @@ bool is_logarithmic(const ExrPart& part) {
 
 }  // namespace
 
-bool has_own_codec(const ExrPart& part) {
+bool has_own_codec(const image::Part& part) {
     return codec_of(part) != nullptr && !is_logarithmic(part);
 }
 
-std::vector<LineChannel> line_channels(const ExrPart& part, const PlaneChannels& planes) {
+std::vector<LineChannel> line_channels(const image::Part& part, const PlaneChannels& planes) {
     std::vector<LineChannel> out;
-    for (const ExrChannel& channel : part.channels)
+    for (const image::Channel& channel : part.channels)
         out.push_back({channel.type, std::nullopt});
     for (std::size_t plane = 0; plane < planes.size(); ++plane)
         if (planes[plane])

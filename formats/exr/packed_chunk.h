@@ -22,7 +22,7 @@ struct LineChannel {
 };
 
 /// The channels of a part without sub-sampled ones, in the order of the file.
-[[nodiscard]] std::vector<LineChannel> line_channels(const ExrPart& part, const PlaneChannels& planes);
+[[nodiscard]] std::vector<LineChannel> line_channels(const image::Part& part, const PlaneChannels& planes);
 
 /// Bytes of a pixel of all channels.
 [[nodiscard]] std::size_t pixel_bytes(const std::vector<LineChannel>& channels);

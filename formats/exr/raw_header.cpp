@@ -33,11 +33,11 @@ class Cursor {
 
     /// A name up to its zero; Damaged where it is longer than our limit.
     Result<std::string_view> take_name() {
-        const auto end = m_bytes.substr(0, m_at + kMostNameBytes + 1).find('\0', m_at);
+        const auto end = m_bytes.substr(0, m_at + image::kMostNameBytes + 1).find('\0', m_at);
         if (end == std::string_view::npos) {
-            if (m_bytes.size() - m_at > kMostNameBytes)
+            if (m_bytes.size() - m_at > image::kMostNameBytes)
                 return fail(ErrorCode::Damaged, "the name of an attribute or of its type has more than " +
-                                                    std::to_string(kMostNameBytes) + " bytes");
+                                                    std::to_string(image::kMostNameBytes) + " bytes");
             m_short = true;
             return std::string_view();
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/exr/output_header.h>
 #include <formats/exr/soundness.h>
+#include <formats/image/colour_attributes.h>
 
 #include <osio/base/text.h>
 
@@ -171,7 +172,7 @@ Result<std::vector<BadRows>> find_bad_rows(const BlockSource& source, RowRange r
 
 Result<PartSoundness> examine_part(const std::shared_ptr<const ExrFile>& file, std::size_t index,
                                    Runner& runner, const Progress& progress) {
-    const ExrPart& part = file->parts()[index];
+    const image::Part& part = file->parts()[index];
     PartSoundness out;
     if (part.deep)
         return out;
@@ -201,7 +202,7 @@ std::unique_ptr<BlockSource> with_black_rows(std::unique_ptr<BlockSource> source
 
 void note_missing_rows(const std::vector<BadRows>& bad, Imf::Header& header) {
     if (!bad.empty())
-        header.insert(attribute::kMissingRows, Imf::StringAttribute(rows_text(bad)));
+        header.insert(image::attribute::kMissingRows, Imf::StringAttribute(rows_text(bad)));
 }
 
 std::string rows_text(const std::vector<BadRows>& bad) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <formats/exr/output_header.h>
 #include <formats/image/collapse_job.h>
+#include <formats/image/colour_attributes.h>
 #include <formats/image/colour_image.h>
 #include <formats/image/open_image.h>
 
@@ -34,12 +34,12 @@ constexpr std::array<std::string_view, 3> kRgb{"R", "G", "B"}, kXyz{"X", "Y", "Z
 /// What a header says of its R, G, B.
 Result<OutputSpace> stated_space(const Part& part, std::vector<std::string>& warnings) {
     const auto* const name =
-        part.header.findTypedAttribute<Imf::StringAttribute>(exr::attribute::kColorSpace);
+        part.header.findTypedAttribute<Imf::StringAttribute>(image::attribute::kColorSpace);
     if (name != nullptr)
         if (auto known = find_output_space(name->value()); known && is_tristimulus(known->kind))
             return known;
     const auto* const stated =
-        part.header.findTypedAttribute<Imf::ChromaticitiesAttribute>(exr::attribute::kChromaticities);
+        part.header.findTypedAttribute<Imf::ChromaticitiesAttribute>(image::attribute::kChromaticities);
     if (stated == nullptr) {
         warnings.push_back((name == nullptr ? std::string("no oiio:ColorSpace or chromaticities")
                                             : "no chromaticities, and oiio:ColorSpace \"" + name->value() +

@@ -2,6 +2,7 @@
 #include <plugins/common/exr_metadata.h>
 
 #include <formats/exr/output_header.h>
+#include <formats/image/colour_attributes.h>
 
 #include <osio/base/text.h>
 
@@ -273,7 +274,7 @@ bool insert_codes(const OIIO::ParamValue& value, const std::string& name, Imf::H
         header.insert(name, Imf::RationalAttribute(Imf::Rational(r[0], r[1])));
         return true;
     }
-    if (name == exr::attribute::kChromaticities && type == kChromaticities) {
+    if (name == image::attribute::kChromaticities && type == kChromaticities) {
         const auto c = value_at<std::array<float, 8>>(value.data());
         header.insert(name, Imf::ChromaticitiesAttribute(
                                 Imf::Chromaticities({c[0], c[1]}, {c[2], c[3]}, {c[4], c[5]}, {c[6], c[7]})));

@@ -7,6 +7,7 @@
 #include <formats/exr/exr_file.h>
 #include <formats/exr/output_header.h>
 #include <formats/exr/spectral_header.h>
+#include <formats/image/colour_attributes.h>
 
 #include <osio/layout/presentation.h>
 
@@ -133,12 +134,12 @@ Result<std::unique_ptr<exr::ExrWriter>> SpectralExrOutput::make_writer(bool with
     Imf::Header header = header_of_windows(m_spec);
     set_compression(m_spec, header);
     insert_metadata(m_spec, header);
-    for (const char* name : {exr::attribute::kRecipe, exr::attribute::kPlan, exr::attribute::kWarnings,
+    for (const char* name : {image::attribute::kRecipe, image::attribute::kPlan, image::attribute::kWarnings,
                              kSourceAttribute, kSourcePartAttribute, kFsyncAttribute})
         header.erase(name);
     exr::complete_spectral_header(m_layout, header);
     if (!with_preview) {
-        header.erase(exr::attribute::kChromaticities);
+        header.erase(image::attribute::kChromaticities);
         header.erase(std::string(attribute::kExposureValue));
     }
     std::vector<exr::OutputChannel> channels;

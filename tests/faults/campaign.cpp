@@ -88,7 +88,7 @@ class Regions {
         std::string bytes, number;
         m_headers_end = exr::read_raw_headers(file, bytes).value().end;
         const auto opened = exr::ExrFile::open(path).value();
-        const exr::ExrPart& part = opened->parts()[0];
+        const image::Part& part = opened->parts()[0];
         const std::uint64_t count = exr::full_resolution_chunks(part);
         const auto height = static_cast<std::uint64_t>(part.data_window.height());
         const exr::ChunkSize size = exr::chunk_size(part);

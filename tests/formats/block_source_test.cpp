@@ -27,7 +27,7 @@ void expect_same_as_openexr(const std::string& path, std::size_t part, const Pla
     ASSERT_TRUE(source) << source.error().text();
     const auto reader = (*source)->start_reader();
     ASSERT_TRUE(reader) << reader.error().text();
-    const ExrPart& header = file->parts()[part];
+    const image::Part& header = file->parts()[part];
     std::vector<std::vector<char>> expected;
     for (const auto channel : planes)
         expected.push_back(

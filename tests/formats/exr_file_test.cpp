@@ -36,7 +36,7 @@ TEST(ExrFile, HeadersAreUnderstood) {
     const auto file = ExrFile::open(path);
     ASSERT_TRUE(file) << file.error().text();
     ASSERT_EQ((*file)->parts().size(), 1U);
-    const ExrPart& read = (*file)->parts()[0];
+    const image::Part& read = (*file)->parts()[0];
     EXPECT_EQ(read.data_window, (Window{-3, 5, 10, 20}));
     EXPECT_EQ(read.display_window, (Window{0, 0, 99, 49}));
     EXPECT_EQ(read.channels.size(), 33U);
@@ -46,7 +46,7 @@ TEST(ExrFile, HeadersAreUnderstood) {
     EXPECT_EQ(read.metadata.layout_version, "1.0");
     ASSERT_EQ(read.layout.sets.size(), 1U);
     EXPECT_EQ(read.layout.sets[0].bands.size(), 31U);
-    for (const ExrChannel& channel : read.channels)
+    for (const image::Channel& channel : read.channels)
         EXPECT_EQ(channel.type, channel.name == "A"    ? SampleType::Float
                                 : channel.name == "id" ? SampleType::Uint
                                                        : SampleType::Half);

@@ -8,6 +8,7 @@
 #include <formats/exr/exr_writer.h>
 #include <formats/exr/output_header.h>
 #include <formats/files/text_file.h>
+#include <formats/image/colour_attributes.h>
 
 #include <osio/base/text.h>
 #include <osio/collapse/photometric_weights.h>
@@ -61,8 +62,8 @@ Result<std::unique_ptr<exr::ExrSink>> open_image(const std::string& path, const 
     if (!to_lower(path).ends_with(".exr"))
         return fail(ErrorCode::Usage, "a luminance image is written as .exr", path);
     Imf::Header header = exr::collapsed_header(job);
-    for (const char* name : {exr::attribute::kChromaticities, exr::attribute::kColorSpace,
-                             exr::attribute::kRecipe, exr::attribute::kPlan})
+    for (const char* name : {image::attribute::kChromaticities, image::attribute::kColorSpace,
+                             image::attribute::kRecipe, image::attribute::kPlan})
         header.erase(name);
     const std::vector<exr::OutputChannel> channels{{"Y", SampleType::Float},
                                                    {"Yscotopic", SampleType::Float}};
