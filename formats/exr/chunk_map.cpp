@@ -142,8 +142,8 @@ Result<void> ChunkMap::check(std::size_t index, std::uint64_t chunk, std::string
     const auto after = std::upper_bound(m_sorted.begin(), m_sorted.end(), offset);
     const bool shared = std::count(std::lower_bound(m_sorted.begin(), after, offset), after, offset) > 1;
     if (shared || *after - offset < header_bytes + bytes)
-        return damaged(after + 1 == m_sorted.end() && !shared ? "goes on beyond the end of the file"
-                                                              : "shares bytes with another chunk");
+        return damaged(m_file.size() - offset < header_bytes + bytes ? "goes on beyond the end of the file"
+                                                                     : "shares bytes with another chunk");
     if (m_sum != Sum::Own)
         return {};
     OSIO_CHECK_OK(m_file.read(offset, header_bytes + bytes, scratch));

@@ -146,6 +146,7 @@ class Refusal(DamageCase):
             if compression != "none":
                 refuse(patched(chunks[1] + 4, "<i", size + 1), "shares bytes with another chunk|bytes, expected 1 to")
             refuse(whole[:-1], "goes on beyond the end of the file")
+            refuse(whole[:chunks[1] + 20], "goes on beyond the end of the file")
 
     def test_what_lies_behind_the_last_chunk_is_nobodys(self):
         self.write_exr("a.exr", self.bands(GRID, shape=(70, 40)))
