@@ -14,14 +14,15 @@ SOURCE = os.environ["OSIO_TEST_SOURCE"]
 # A file includes from its own floor or from one below.
 FLOORS = {
     "core/osio/base": 0, "core/osio/spectra": 1, "core/osio/data": 1, "core/osio/colour": 2,
-    "core/osio/layout": 3, "core/osio/collapse": 4, "formats": 5, "plugins": 6, "tools": 7, "examples": 7,
+    "core/osio/layout": 3, "core/osio/collapse": 4, "core/osio/budget": 5, "formats": 6, "plugins": 7, "tools": 8,
+    "examples": 8,
 }
 
 # Which files may include a library.
 LIBRARIES = {
     r"xxhash\.h": r"formats/exr/checksum\.cpp",
     r"tl/": r"core/osio/base/result\.h",
-    r"hwy/": r"core/osio/collapse/kernel_simd\.cpp|formats/exr/zip_simd\.cpp",
+    r"hwy/": r"core/osio/budget/magnitude_simd\.cpp|core/osio/collapse/kernel_simd\.cpp|formats/exr/zip_simd\.cpp",
     r"libdeflate\.h": r"formats/exr/zip_codec\.cpp",
     r"OpenEXR/|Imath/": r"formats/(convert|envi|exr|image)/|plugins/|tools/host_module/|examples/",
     r"OpenImageIO/": r"plugins/|tools/host_module/",

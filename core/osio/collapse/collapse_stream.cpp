@@ -86,11 +86,13 @@ CollapseCounts count(std::span<const float* const> planes, std::uint64_t pixels)
 struct Branch {
     explicit Branch(const CollapseTarget& target)
         : stage(target.plan.space, target.plan.white), outputs(target.plan.weights.rows()),
-          worker(target.sink.start_worker()) {}
+          worker(target.sink.start_worker()),
+          witness(target.witness ? target.witness->start_worker() : nullptr) {}
 
     PixelStage stage;
     std::size_t outputs;
     std::unique_ptr<RowWorker> worker;
+    std::unique_ptr<WitnessWorker> witness;
     CollapseCounts counts;
 };
 
@@ -128,6 +130,8 @@ class Collapser final : public BlockVisitor {
         OSIO_CHECK_OK(m_prepared);
         for (std::size_t i = 0; i < m_branches.size(); ++i) {
             m_shared.counts[i] += m_branches[i].counts;
+            if (m_branches[i].witness)
+                m_branches[i].witness->deliver();
             OSIO_CHECK_OK(m_branches[i].worker->deliver());
         }
         return {};
@@ -140,7 +144,14 @@ class Collapser final : public BlockVisitor {
         m_sums.clear();
         for (std::size_t row = 0; row < rows; ++row)
             m_sums.push_back(m_planes[row].data() + first);
-        collapse_run(planes.first(m_shared.weights.bands()), m_shared.weights, count, m_sums);
+        const auto bands = planes.first(m_shared.weights.bands());
+        collapse_run(bands, m_shared.weights, count, m_sums);
+        const float* const* sums = m_sums.data();
+        for (const Branch& branch : m_branches) {
+            if (branch.witness)
+                branch.witness->look(bands, count, {sums, branch.outputs});
+            sums += branch.outputs;
+        }
         if (m_shared.has_alpha)
             for (std::size_t pixel = 0; pixel < count; ++pixel)
                 m_planes.back()[first + pixel] = static_cast<float>(sample_at(planes.back(), pixel));

@@ -49,10 +49,33 @@ struct CollapseCounts {
     CollapseCounts& operator+=(const CollapseCounts& other);
 };
 
-/// A plan and where its rows go.
+/// A worker's eyes of a witness.
+class WitnessWorker {
+  public:
+    virtual ~WitnessWorker() = default;
+
+    /// Some pixels: the plan's bands as they were read, and the sums that were made of them, before any
+    /// curve.
+    virtual void look(std::span<const BandView> bands, std::size_t count,
+                      std::span<const float* const> sums) = 0;
+
+    /// Hands on what was seen since the last call: one call at a time.
+    virtual void deliver() = 0;
+};
+
+/// Looks on while a plan is carried out. It sees whole blocks: of a part of the rows, more than those.
+class CollapseWitness {
+  public:
+    virtual ~CollapseWitness() = default;
+
+    [[nodiscard]] virtual std::unique_ptr<WitnessWorker> start_worker() = 0;
+};
+
+/// A plan, where its rows go, and who looks on.
 struct CollapseTarget {
     const CollapsePlan& plan;
     RowSink& sink;
+    CollapseWitness* witness = nullptr;
 };
 
 /// Collapses the blocks that hold `rows` and hands the rows to the sinks. The source's planes are the

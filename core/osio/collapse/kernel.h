@@ -29,6 +29,9 @@ void collapse_rows_reference(std::span<const BandView> bands, const WeightMatrix
 void collapse_run(std::span<const BandView> bands, const WeightMatrix& weights, std::size_t pixel_count,
                   std::span<float* const> out);
 
+/// True for what SIMD can load: contiguous halves and floats, and a band that nobody needs.
+[[nodiscard]] bool is_vectorisable(const BandView& band);
+
 /// One sample as a double.
 [[nodiscard]] double sample_at(const BandView& band, std::size_t pixel);
 

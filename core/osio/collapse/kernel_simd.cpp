@@ -152,17 +152,13 @@ namespace osio {
 
 HWY_EXPORT(collapse_groups);
 
-namespace {
-
-bool vectorisable(const BandView& band) {
+bool is_vectorisable(const BandView& band) {
     return band.data == nullptr || (band.type != SampleType::Uint && band.contiguous());
 }
 
-}  // namespace
-
 void collapse_run(std::span<const BandView> bands, const WeightMatrix& weights, std::size_t pixel_count,
                   std::span<float* const> out) {
-    if (!std::all_of(bands.begin(), bands.end(), vectorisable))
+    if (!std::all_of(bands.begin(), bands.end(), is_vectorisable))
         return collapse_run_reference(bands, weights, pixel_count, out);
     for (std::size_t row = 0; row < weights.rows();) {
         const std::size_t done = HWY_DYNAMIC_DISPATCH(collapse_groups)(bands, weights, row, pixel_count, out);

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <osio/budget/lab_bound.h>
+
+#include <bit>
+#include <cstdint>
+
+namespace osio {
+
+namespace {
+
+constexpr double kLineEnd = 216.0 / 24389;  // (6/29)^3
+constexpr double kLineSlope = 841.0 / 108;  // (29/6)^2 / 3
+
+}  // namespace
+
+std::size_t LabSlope::index_of(float t) {
+    return (std::bit_cast<std::uint32_t>(t) - std::bit_cast<std::uint32_t>(kFirst)) >> kDroppedBits;
+}
+
+LabSlope::LabSlope() {
+    for (std::size_t i = 0; i < m_slopes.size(); ++i) {
+        // The slope falls, so that of a bucket's lower end holds for all of it; a float may round it down.
+        const auto low = std::bit_cast<float>(std::bit_cast<std::uint32_t>(kFirst) +
+                                              (static_cast<std::uint32_t>(i) << kDroppedBits));
+        const double t = static_cast<double>(low);
+        const double slope = t <= kLineEnd ? kLineSlope : 1 / (3 * std::cbrt(t) * std::cbrt(t));
+        m_slopes[i] = static_cast<float>(slope * (1 + 0x1p-22));
+    }
+    m_slopes[0] = static_cast<float>(kLineSlope * (1 + 0x1p-22));
+}
+
+double delta_e_bound(const LabSlope& slope, const std::array<float, 3>& t,
+                     const std::array<float, 3>& error) {
+    Vector3 df;
+    for (std::size_t c = 0; c < 3; ++c)
+        df[c] = static_cast<double>(slope.at_and_above(t[c] - error[c])) * static_cast<double>(error[c]);
+    const double dl = 116 * df[1], da = 500 * (df[0] + df[1]), db = 200 * (df[1] + df[2]);
+    return kDeltaE2000PerDeltaE76 * std::sqrt(dl * dl + da * da + db * db);
+}
+
+}  // namespace osio
