@@ -4,6 +4,7 @@
 #include <formats/exr/exr_file.h>
 #include <formats/exr/exr_writer.h>
 #include <formats/exr/header_output.h>
+#include <formats/exr/reserved_text.h>
 #include <formats/exr/zip_output.h>
 #include <formats/files/checked_file.h>
 #include <formats/files/replacement_file.h>
@@ -137,6 +138,14 @@ struct ExrWriter::State {
     std::deque<Part> parts;
     std::optional<Imf::OutputFile> output;            ///< of one part that is not ours to pack
     std::optional<Imf::MultiPartOutputFile> outputs;  ///< of several
+
+    struct Text {
+        std::size_t part;
+        std::string name;
+        std::string text;
+    };
+
+    std::vector<Text> texts;  ///< for their reserved places
 };
 
 /// Packs chunks in the worker.
@@ -276,6 +285,10 @@ Result<void> ExrWriter::write_rows(int row_count, std::span<const ChannelRows> c
     return {};
 }
 
+void ExrWriter::set_text(std::size_t part, std::string name, std::string text) {
+    m_state->texts.push_back({part, std::move(name), std::move(text)});
+}
+
 Result<void> ExrWriter::finish(files::Durability durability) {
     State& state = *m_state;
     for (State::Part& part : state.parts) {
@@ -290,6 +303,10 @@ Result<void> ExrWriter::finish(files::Durability durability) {
     if (state.stream.file().close() != 0)
         return fail(ErrorCode::Io, "cannot be written: " + state.stream.file().failure(),
                     state.file.target());
+    for (State::Text& text : state.texts)
+        if (auto result = write_reserved_text(state.file.path(), text.part, text.name, std::move(text.text));
+            !result)
+            return fail_in(state.file.target(), std::move(result).error());
     if (auto result = write_checksum(state.file.path()); !result)
         return fail_in(state.file.target(), std::move(result).error());
     return state.file.commit(durability);

@@ -65,6 +65,9 @@ class ExrWriter {
     [[nodiscard]] Result<void> write_rows(int row_count, std::span<const ChannelRows> channels,
                                           Runner* runner = nullptr);
 
+    /// The text of an attribute that reserve_text() made in a part's header; finish() writes it.
+    void set_text(std::size_t part, std::string name, std::string text);
+
     /// Completes the file, gives it its checksum and puts it in its place. Fails where rows are missing
     /// or where the system could not store every byte.
     [[nodiscard]] Result<void> finish(files::Durability durability = files::Durability::Handed);
@@ -93,6 +96,11 @@ class ExrSink final : public RowSink {
 
     [[nodiscard]] Result<void> finish(files::Durability durability = files::Durability::Handed) {
         return m_writer->finish(durability);
+    }
+
+    /// ExrWriter::set_text() of its part.
+    void set_text(std::string name, std::string text) {
+        m_writer->set_text(m_part, std::move(name), std::move(text));
     }
 
     /// Samples that did not fit a half.

@@ -3,37 +3,9 @@
 #include <formats/exr/header_bytes.h>
 #include <formats/files/raw_file.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fcntl.h>
-#include <unistd.h>
-
 namespace osio::exr {
 
 namespace {
-
-tl::unexpected<Error> not_written() {
-    return fail(ErrorCode::Io, std::string("cannot be written: ") + std::strerror(errno));
-}
-
-Result<void> overwrite(const std::string& path, std::uint64_t at, std::string_view bytes) {
-    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
-    if (descriptor < 0)
-        return not_written();
-    Result<void> result;
-    while (result && !bytes.empty()) {
-        const ssize_t count = ::pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(at));
-        if (count < 0 && errno != EINTR)
-            result = not_written();
-        if (count > 0) {
-            at += static_cast<std::uint64_t>(count);
-            bytes.remove_prefix(static_cast<std::size_t>(count));
-        }
-    }
-    if (::close(descriptor) != 0 && result)
-        return not_written();
-    return result;
-}
 
 /// The sums of a part's chunks, whose table starts at `table_at`.
 Result<void> sum_chunks(const files::RawFile& file, bool multi_part, std::uint64_t table_at, Checksum& sum) {
@@ -66,7 +38,7 @@ Result<void> write_checksum(const std::string& path) {
         table_at += sum->chunks.size() * 8;
         sum->file_bytes = file.size();
         sum->header = header_checksum(headers.version, header);
-        OSIO_CHECK_OK(overwrite(path, place->value_at, sum->bytes()));
+        OSIO_CHECK_OK(files::overwrite(path, place->value_at, sum->bytes()));
     }
     return {};
 }

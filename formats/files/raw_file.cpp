@@ -10,6 +10,14 @@
 
 namespace osio::files {
 
+namespace {
+
+tl::unexpected<Error> not_written() {
+    return fail(ErrorCode::Io, std::string("cannot be written: ") + std::strerror(errno));
+}
+
+}  // namespace
+
 Result<RawFile> RawFile::open(const std::string& path) {
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
 
@@ -50,6 +58,25 @@ Result<void> RawFile::read(std::uint64_t at, std::uint64_t count, std::string& o
         done += static_cast<std::uint64_t>(got);
     }
     return {};
+}
+
+Result<void> overwrite(const std::string& path, std::uint64_t at, std::string_view bytes) {
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0)
+        return not_written();
+    Result<void> result;
+    while (result && !bytes.empty()) {
+        const ssize_t count = ::pwrite(descriptor, bytes.data(), bytes.size(), static_cast<off_t>(at));
+        if (count < 0 && errno != EINTR)
+            result = not_written();
+        if (count > 0) {
+            at += static_cast<std::uint64_t>(count);
+            bytes.remove_prefix(static_cast<std::size_t>(count));
+        }
+    }
+    if (::close(descriptor) != 0 && result)
+        return not_written();
+    return result;
 }
 
 }  // namespace osio::files

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace osio::files {
 
@@ -31,5 +32,8 @@ class RawFile {
     int m_descriptor;
     std::uint64_t m_size;
 };
+
+/// Writes bytes over those at a place of a file that exists. Io where the system refuses.
+[[nodiscard]] Result<void> overwrite(const std::string& path, std::uint64_t at, std::string_view bytes);
 
 }  // namespace osio::files

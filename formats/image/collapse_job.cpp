@@ -15,22 +15,30 @@ std::vector<std::string> CollapseJob::channel_names() const {
     return names;
 }
 
-std::vector<SampleType> CollapseJob::plane_types() const {
+std::vector<SampleType> CollapseJob::band_types() const {
     std::vector<SampleType> types;
     for (const Band& band : plan.bands)
         types.push_back(part().channels[band.channel].type);
+    return types;
+}
+
+std::vector<SampleType> CollapseJob::plane_types() const {
+    std::vector<SampleType> types = band_types();
     if (alpha)
         types.push_back(part().channels[*alpha].type);
     return types;
 }
 
-Result<std::unique_ptr<BlockSource>> open_source(std::span<const CollapseJob> jobs, Grain grain) {
+Result<std::unique_ptr<BlockSource>> open_source(std::span<const CollapseJob> jobs,
+                                                 std::span<const CollapsePlan> beside, Grain grain) {
     const CollapseJob& first = jobs.front();
     PlaneChannels planes;
     for (std::size_t band = 0; band < first.plan.bands.size(); ++band) {
-        const bool needed = std::any_of(jobs.begin(), jobs.end(), [band](const CollapseJob& job) {
-            return job.plan.weights.needs(band);
-        });
+        const bool needed =
+            std::any_of(jobs.begin(), jobs.end(),
+                        [band](const CollapseJob& job) { return job.plan.weights.needs(band); }) ||
+            std::any_of(beside.begin(), beside.end(),
+                        [band](const CollapsePlan& plan) { return plan.weights.needs(band); });
         planes.push_back(needed ? std::optional(first.plan.bands[band].channel) : std::nullopt);
     }
     if (first.alpha)

@@ -17,8 +17,9 @@ namespace osio::image {
 
 struct CollapseJob;
 
-/// The bands that any of some jobs for the same set needs, then alpha.
+/// The bands that any of some jobs for the same set needs, or of further plans for the same bands, then alpha.
 [[nodiscard]] Result<std::unique_ptr<BlockSource>> open_source(std::span<const CollapseJob> jobs,
+                                                               std::span<const CollapsePlan> beside = {},
                                                                Grain grain = Grain::Block);
 
 /// A file, the part of it that a request means, and the plan for its bands: everything that is
@@ -37,8 +38,11 @@ struct CollapseJob {
 
     /// The bands that the plan needs, then alpha.
     [[nodiscard]] Result<std::unique_ptr<BlockSource>> open_source(Grain grain = Grain::Block) const {
-        return image::open_source({this, 1}, grain);
+        return image::open_source({this, 1}, {}, grain);
     }
+
+    /// How the samples of the plan's bands are stored.
+    [[nodiscard]] std::vector<SampleType> band_types() const;
 
     /// How the samples of the source's planes are stored.
     [[nodiscard]] std::vector<SampleType> plane_types() const;

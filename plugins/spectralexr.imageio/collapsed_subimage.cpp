@@ -4,6 +4,7 @@
 #include <plugins/spectralexr.imageio/subimage.h>
 
 #include <formats/exr/output_header.h>
+#include <formats/image/certificate.h>
 
 #include <osio/collapse/collapse_stream.h>
 
@@ -55,7 +56,8 @@ class CollapsedSubimage final : public Subimage {
 
 }  // namespace
 
-Result<std::unique_ptr<Subimage>> make_collapsed_subimage(image::CollapseJob job, int subimage_count) {
+Result<std::unique_ptr<Subimage>> make_collapsed_subimage(image::CollapseJob job, int subimage_count,
+                                                          const std::string& certificate) {
     OIIO::ImageSpec spec = spec_of_windows(job.part());
     spec.format = OIIO::TypeFloat;
     spec.channelnames = job.channel_names();
@@ -63,6 +65,8 @@ Result<std::unique_ptr<Subimage>> make_collapsed_subimage(image::CollapseJob job
     if (job.alpha)
         spec.alpha_channel = spec.nchannels - 1;
     add_metadata(exr::collapsed_header(job), spec);
+    if (!certificate.empty())
+        spec.attribute(image::attribute::kCertificate, certificate);
     spec.attribute("oiio:subimages", subimage_count);
     if (subimage_count > 1)
         spec.attribute("oiio:subimagename", job.plan.request.illuminant);

@@ -4,6 +4,7 @@
 #include <plugins/spectralexr.imageio/input.h>
 
 #include <formats/files/text_file.h>
+#include <formats/image/certificate.h>
 #include <formats/image/open_image.h>
 
 #include <osio/collapse/selection.h>
@@ -40,6 +41,8 @@ Result<void> check_raw_request(const CollapseRequest& request) {
         return needs_space("illuminant=" + request.illuminant);
     if (!request.white.empty())
         return needs_space("white=" + request.white);
+    if (request.max_delta_e || request.white_luminance)
+        return needs_space(request.max_delta_e ? "max-delta-e" : "white-luminance");
     if (!request.set.empty())
         return needs_space("set=" + request.set);
     if (request.exposure_stops != 0)
@@ -105,12 +108,26 @@ Result<void> SpectralExrInput::load(const std::string& name, const OIIO::ImageSp
     OSIO_TRY(auto file, image::open_image(open.path));
     if (!open.request.to)
         return add_raw_subimages(file, open.request);
+    if (open.request.white_luminance && !open.request.max_delta_e)
+        return fail(ErrorCode::Usage, "white-luminance is for max-delta-e");
     OSIO_TRY(auto jobs, image::prepare_collapses(file, open.request, files::text_loader({})));
     for (image::CollapseJob& job : jobs) {
-        OSIO_TRY(auto subimage, make_collapsed_subimage(std::move(job), static_cast<int>(jobs.size())));
+        OSIO_TRY(std::string certificate, certify(job));
+        OSIO_TRY(auto subimage, make_collapsed_subimage(std::move(job), static_cast<int>(jobs.size()),
+                                                        std::move(certificate)));
         m_subimages.push_back(std::move(subimage));
     }
     return {};
+}
+
+Result<std::string> SpectralExrInput::certify(const image::CollapseJob& job) {
+    if (!job.plan.request.max_delta_e)
+        return std::string();
+    OSIO_TRY(const auto source, job.open_source());
+    HostRunner runner(threads(), source->block_count());
+    OSIO_TRY(const image::Certificate certificate,
+             image::certify_for_host(job, files::text_loader({}), runner));
+    return image::certificate_json(job, certificate, true);
 }
 
 Result<void> SpectralExrInput::add_raw_subimages(const std::shared_ptr<const image::SpectralImage>& file,

@@ -35,6 +35,8 @@ class SpectralExrInput final : public OIIO::ImageInput {
   private:
     bool open_with(const std::string& name, OIIO::ImageSpec& spec, const OIIO::ImageSpec* config);
     Result<void> load(const std::string& name, const OIIO::ImageSpec* config);
+    /// The certificate that max-delta-e asks for, as JSON; empty without it. Reads the whole image.
+    Result<std::string> certify(const image::CollapseJob& job);
     Result<void> add_raw_subimages(const std::shared_ptr<const image::SpectralImage>& file,
                                    const CollapseRequest& request);
     Result<void> read(RowRange rows, std::byte* out);

@@ -49,8 +49,8 @@ make_raw_subimage(std::shared_ptr<const image::SpectralImage> file, std::size_t 
                   int subimage_count);
 
 /// A part's bands as channels of a space, and alpha; one of `subimage_count`, one a light, that the host
-/// sees, and then named by its light.
-[[nodiscard]] Result<std::unique_ptr<Subimage>> make_collapsed_subimage(image::CollapseJob job,
-                                                                        int subimage_count);
+/// sees, and then named by its light. With a certificate as an attribute where that is not empty.
+[[nodiscard]] Result<std::unique_ptr<Subimage>>
+make_collapsed_subimage(image::CollapseJob job, int subimage_count, const std::string& certificate);
 
 }  // namespace osio::plugin

@@ -29,7 +29,7 @@ LIBRARIES = {
     r"OpenColorIO/": r"plugins/ocio/",
     r"fmt/": r"tools/osiotool/",
     r"CLI/": r"tools/osiotool/main\.cpp",
-    r"nlohmann/": r"tools/osiotool/report_json\.cpp",
+    r"nlohmann/": r"formats/image/certificate_json\.cpp|tools/osiotool/report_json\.cpp",
 }
 
 OWN = re.compile(r"(osio|formats|plugins|tools)/")

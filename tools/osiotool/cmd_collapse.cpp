@@ -10,6 +10,8 @@
 #include <formats/exr/soundness.h>
 #include <formats/files/text_file.h>
 
+#include <osio/base/text.h>
+
 #include <fmt/format.h>
 
 #include <chrono>
@@ -22,19 +24,118 @@ namespace {
 Result<std::vector<exr::BadRows>> missing_rows(const std::vector<image::CollapseJob>& jobs, RowRange rows,
                                                Runner& runner) {
     const image::CollapseJob& job = jobs.front();
-    OSIO_TRY(const auto source, image::open_source(jobs, image::Grain::Chunk));
+    OSIO_TRY(const auto source, image::open_source(jobs, {}, image::Grain::Chunk));
     OSIO_TRY(auto bad, exr::find_bad_rows(*source, rows, runner, [](double) { return !interrupted(); }));
     if (exr::row_count(bad) == static_cast<std::size_t>(job.part().data_window.height()))
         return fail(ErrorCode::Damaged, "no row can be decoded; first: " + bad.front().why, job.file->path());
     return bad;
 }
 
-Result<std::unique_ptr<BlockSource>> open_source(const std::vector<image::CollapseJob>& jobs,
-                                                 const std::vector<exr::BadRows>& missing) {
-    if (missing.empty())
-        return image::open_source(jobs);
-    OSIO_TRY(auto source, image::open_source(jobs, image::Grain::Chunk));
-    return exr::with_black_rows(std::move(source), missing, jobs.front().plane_types());
+/// One way to write the result, and all that comes with it.
+class Attempt {
+  public:
+    Attempt(const CollapseOptions& options, const std::vector<image::CollapseJob>& jobs,
+            const std::vector<exr::BadRows>& missing, host::StoredType type)
+        : m_options(options), m_jobs(jobs), m_missing(missing), m_type(type) {}
+
+    /// Writes everything beside its place.
+    Result<void> run(Runner& runner) {
+        OSIO_CHECK_OK(open_certifiers(runner));
+        OSIO_TRY(const auto source, open_source());
+        OSIO_TRY(m_outputs, open_outputs(m_options, m_jobs, m_missing, m_type, certified()));
+        std::vector<CollapseTarget> targets;
+        for (std::size_t i = 0; i < m_jobs.size(); ++i)
+            targets.push_back(
+                {m_jobs[i].plan, *m_outputs[i].sink, certified() ? &m_certifiers[i]->witness() : nullptr});
+        const image::CollapseJob& first = m_jobs.front();
+        const image::Window& window = first.part().data_window;
+        ProgressBar bar(m_options.output, !m_options.quiet);
+        OSIO_TRY(const auto counts, collapse_stream(*source, targets, first.alpha.has_value(),
+                                                    {window.min_y, window.max_y}, runner, std::ref(bar)));
+        for (std::size_t i = 0; i < m_jobs.size(); ++i) {
+            CollapseOutcome outcome{
+                m_outputs[i].path, std::string(depth_name(m_type)), counts[i], 0, 0, m_missing, 0, {}};
+            if (certified())
+                outcome.certificate = m_certifiers[i]->certificate(m_outputs[i].path, counts[i]);
+            m_outcomes.push_back(std::move(outcome));
+        }
+        return {};
+    }
+
+    /// NotCertified with the first result's reason, where one does not hold what was asked for.
+    [[nodiscard]] Result<void> judge() const {
+        for (std::size_t i = 0; i < m_outcomes.size(); ++i)
+            if (const auto& certificate = m_outcomes[i].certificate;
+                certificate && certificate->max_delta_e && !certificate->holds())
+                return fail(ErrorCode::NotCertified, certificate->failure(m_jobs[i]), m_jobs[i].file->path());
+        return {};
+    }
+
+    /// Puts everything in its place.
+    Result<std::vector<CollapseOutcome>> finish() {
+        for (std::size_t i = 0; i < m_outcomes.size(); ++i)
+            OSIO_CHECK_OK(m_outputs[i].finish(m_outcomes[i]));
+        return std::move(m_outcomes);
+    }
+
+  private:
+    [[nodiscard]] bool certified() const { return !m_certifiers.empty(); }
+
+    Result<void> open_certifiers(Runner& runner) {
+        if (m_options.certificate.empty() && !m_jobs.front().plan.request.max_delta_e)
+            return {};
+        for (const image::CollapseJob& job : m_jobs) {
+            OSIO_TRY(auto certifier,
+                     image::Certifier::create(job, stored_depth(m_type), files::text_loader({}), runner,
+                                              [](double) { return !interrupted(); }));
+            m_certifiers.push_back(std::move(certifier));
+        }
+        return {};
+    }
+
+    Result<std::unique_ptr<BlockSource>> open_source() const {
+        std::vector<CollapsePlan> beside;
+        for (const auto& certifier : m_certifiers)
+            beside.insert(beside.end(), certifier->alternatives().begin(), certifier->alternatives().end());
+        if (m_missing.empty())
+            return image::open_source(m_jobs, beside);
+        OSIO_TRY(auto source, image::open_source(m_jobs, beside, image::Grain::Chunk));
+        return exr::with_black_rows(std::move(source), m_missing, m_jobs.front().plane_types());
+    }
+
+    const CollapseOptions& m_options;
+    const std::vector<image::CollapseJob>& m_jobs;
+    const std::vector<exr::BadRows>& m_missing;
+    host::StoredType m_type;
+    std::vector<std::unique_ptr<image::Certifier>> m_certifiers;
+    std::vector<CollapseOutput> m_outputs;
+    std::vector<CollapseOutcome> m_outcomes;
+};
+
+/// The first candidate that is certified as was asked for, in its place; the last one's reason where none is.
+Result<std::vector<CollapseOutcome>> collapse_certified(const CollapseOptions& options,
+                                                        const std::vector<image::CollapseJob>& jobs,
+                                                        const std::vector<exr::BadRows>& missing,
+                                                        const std::vector<host::StoredType>& types,
+                                                        Runner& runner) {
+    Result<void> verdict;
+    for (const host::StoredType type : types) {
+        Attempt attempt(options, jobs, missing, type);
+        OSIO_CHECK_OK(attempt.run(runner));
+        verdict = attempt.judge();
+        if (verdict)
+            return attempt.finish();
+    }
+    return tl::unexpected(std::move(verdict).error());
+}
+
+/// The certificates beside the images: one, or a list where there are several lights.
+Result<void> write_certificates(const std::string& path, const std::vector<image::CollapseJob>& jobs,
+                                const std::vector<CollapseOutcome>& outcomes) {
+    std::vector<std::string> texts;
+    for (std::size_t i = 0; i < jobs.size(); ++i)
+        texts.push_back(image::certificate_json(jobs[i], *outcomes[i].certificate, false));
+    return files::write_text(path, texts.size() == 1 ? texts.front() : "[\n" + join(texts, ",\n") + "]\n");
 }
 
 /// What a user is told, but for what --json prints.
@@ -58,6 +159,12 @@ void report(const CollapseOptions& options, const std::vector<image::CollapseJob
 Result<ExitCode> run_collapse(const CollapseOptions& options) {
     const auto started = std::chrono::steady_clock::now();
     OSIO_TRY(const CollapseRequest request, request_of(options.request));
+    const bool certified = request.max_delta_e || !options.certificate.empty();
+    if (certified && options.allow_partial)
+        return fail(ErrorCode::Usage,
+                    "--allow-partial makes black rows of damaged ones, of which nothing can be certified");
+    if (request.white_luminance && !certified)
+        return fail(ErrorCode::Usage, "--white-luminance is for --max-delta-e and --certificate");
     OSIO_TRY(const auto jobs, image::open_collapses(options.input, request, files::text_loader({})));
     const image::CollapseJob& first = jobs.front();
     OSIO_TRY(const host::StoredType type, choose_depth(options, first.plan.space));
@@ -65,30 +172,16 @@ Result<ExitCode> run_collapse(const CollapseOptions& options) {
     exr::set_compression_threads(runner.worker_count());
     catch_interrupts();
     const image::Window& window = first.part().data_window;
-    const RowRange rows{window.min_y, window.max_y};
     std::vector<exr::BadRows> missing;
     if (options.allow_partial) {
-        OSIO_TRY(missing, missing_rows(jobs, rows, runner));
+        OSIO_TRY(missing, missing_rows(jobs, {window.min_y, window.max_y}, runner));
     }
-    OSIO_TRY(const auto source, open_source(jobs, missing));
-    OSIO_TRY(const auto outputs, open_outputs(options, jobs, missing, type));
-    std::vector<CollapseTarget> targets;
-    for (std::size_t i = 0; i < jobs.size(); ++i)
-        targets.push_back({jobs[i].plan, *outputs[i].sink});
-
-    std::vector<CollapseCounts> counts;
-    {
-        ProgressBar bar(options.output, !options.quiet);
-        OSIO_TRY(counts,
-                 collapse_stream(*source, targets, first.alpha.has_value(), rows, runner, std::ref(bar)));
-    }
-    std::vector<CollapseOutcome> outcomes;
-    for (std::size_t i = 0; i < jobs.size(); ++i) {
-        CollapseOutcome outcome{outputs[i].path, std::string(depth_name(type)), counts[i], 0, 0, missing, 0};
-        OSIO_CHECK_OK(outputs[i].finish(outcome));
+    OSIO_TRY(auto outcomes,
+             collapse_certified(options, jobs, missing, depth_candidates(options, first.plan, type), runner));
+    if (!options.certificate.empty())
+        OSIO_CHECK_OK(write_certificates(options.certificate, jobs, outcomes));
+    for (CollapseOutcome& outcome : outcomes)
         outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
-        outcomes.push_back(std::move(outcome));
-    }
     report(options, jobs, outcomes);
     if (options.json)
         fmt::print("{}", outcomes_json(jobs, outcomes));

@@ -4,6 +4,7 @@
 
 #include <formats/exr/exr_writer.h>
 #include <formats/exr/output_header.h>
+#include <formats/exr/reserved_text.h>
 
 #include <osio/base/text.h>
 
@@ -36,18 +37,30 @@ files::Durability durability_of(const CollapseOptions& options) {
     return options.fsync ? files::Durability::Stored : files::Durability::Handed;
 }
 
-Imf::Header header_of(const image::CollapseJob& job, const std::vector<exr::BadRows>& missing) {
+/// What all outputs of a collapse have in common.
+struct OutputRequest {
+    const CollapseOptions& options;
+    const std::vector<exr::BadRows>& missing;
+    StoredType type;
+    bool certified;
+};
+
+Imf::Header header_of(const image::CollapseJob& job, const OutputRequest& request) {
     Imf::Header header = exr::collapsed_header(job);
-    exr::note_missing_rows(missing, header);
+    exr::note_missing_rows(request.missing, header);
     return header;
 }
 
 /// A job's part of an EXR.
-Result<exr::OutputPart> part_for(const CollapseOptions& options, const image::CollapseJob& job,
-                                 Imf::Header header, SampleType sample) {
-    if (!options.compression.empty()) {
-        OSIO_TRY(header.compression(), exr::find_compression(options.compression));
+Result<exr::OutputPart> part_for(const image::CollapseJob& job, const OutputRequest& request,
+                                 SampleType sample) {
+    Imf::Header header = header_of(job, request);
+    const std::string& compression = request.options.compression;
+    if (!compression.empty()) {
+        OSIO_TRY(header.compression(), exr::find_compression(compression));
     }
+    if (request.certified)
+        exr::reserve_text(image::attribute::kCertificate, image::most_certificate_bytes(job), header);
     exr::OutputPart part{std::move(header), {}};
     for (const std::string& name : job.channel_names())
         part.channels.push_back({name, sample});
@@ -55,14 +68,13 @@ Result<exr::OutputPart> part_for(const CollapseOptions& options, const image::Co
 }
 
 /// One EXR for all jobs: a part each, with the light's name where there are several.
-Result<std::vector<CollapseOutput>> open_exr(const CollapseOptions& options, const std::string& path,
+Result<std::vector<CollapseOutput>> open_exr(const OutputRequest& request, const std::string& path,
                                              std::span<const image::CollapseJob> jobs,
-                                             std::span<const std::string> names,
-                                             const std::vector<exr::BadRows>& missing, StoredType type) {
-    const SampleType sample = type == StoredType::Half ? SampleType::Half : SampleType::Float;
+                                             std::span<const std::string> names) {
+    const SampleType sample = request.type == StoredType::Half ? SampleType::Half : SampleType::Float;
     std::vector<exr::OutputPart> parts;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
-        OSIO_TRY(exr::OutputPart part, part_for(options, jobs[i], header_of(jobs[i], missing), sample));
+        OSIO_TRY(exr::OutputPart part, part_for(jobs[i], request, sample));
         if (jobs.size() > 1)
             part.header.setName(names[i]);
         parts.push_back(std::move(part));
@@ -73,10 +85,13 @@ Result<std::vector<CollapseOutput>> open_exr(const CollapseOptions& options, con
         auto sink = std::make_unique<exr::ExrSink>(writer, sample, jobs[i].part().data_window.width(), i);
         auto* const exr = sink.get();
         const bool last = i + 1 == jobs.size();
-        const auto durability = durability_of(options);
+        const auto durability = durability_of(request.options);
         out.push_back({std::move(sink),
-                       [exr, last, durability](CollapseOutcome& outcome) {
+                       [exr, last, durability, job = &jobs[i]](CollapseOutcome& outcome) {
                            outcome.clamped_samples = exr->clamped_count();
+                           if (outcome.certificate)
+                               exr->set_text(image::attribute::kCertificate,
+                                             image::certificate_json(*job, *outcome.certificate, true));
                            return last ? exr->finish(durability) : Result<void>();
                        },
                        path});
@@ -84,13 +99,14 @@ Result<std::vector<CollapseOutput>> open_exr(const CollapseOptions& options, con
     return out;
 }
 
-Result<CollapseOutput> open_other(const CollapseOptions& options, const std::string& path,
-                                  const image::CollapseJob& job, const Imf::Header& header, StoredType type) {
-    if (!options.compression.empty())
+Result<CollapseOutput> open_other(const OutputRequest& request, const std::string& path,
+                                  const image::CollapseJob& job) {
+    if (!request.options.compression.empty())
         return fail(ErrorCode::Usage, "--compression is for .exr output");
     OSIO_TRY(const host::HostModule* const module, load_host_module());
-    OSIO_TRY(auto sink,
-             module->open_sink({path, type, job.channel_names(), &header, durability_of(options)}));
+    const Imf::Header header = header_of(job, request);
+    OSIO_TRY(auto sink, module->open_sink({path, request.type, job.channel_names(), &header,
+                                           durability_of(request.options)}));
     auto* const other = sink.get();
     return CollapseOutput{std::move(sink),
                           [other](CollapseOutcome& outcome) {
@@ -163,9 +179,28 @@ Result<StoredType> choose_depth(const CollapseOptions& options, const OutputSpac
     return type;
 }
 
+std::vector<StoredType> depth_candidates(const CollapseOptions& options, const CollapsePlan& plan,
+                                         StoredType chosen) {
+    if (plan.request.max_delta_e && options.depth.empty() && is_exr(options.output))
+        return {StoredType::Half, StoredType::Float};
+    return {chosen};
+}
+
+StoredDepth stored_depth(StoredType type) {
+    switch (type) {
+    case StoredType::Half: return StoredDepth::Half;
+    case StoredType::Uint8: return StoredDepth::Uint8;
+    case StoredType::Uint16: return StoredDepth::Uint16;
+    case StoredType::Float: break;
+    }
+    return StoredDepth::Float;
+}
+
 Result<std::vector<CollapseOutput>> open_outputs(const CollapseOptions& options,
                                                  const std::vector<image::CollapseJob>& jobs,
-                                                 const std::vector<exr::BadRows>& missing, StoredType type) {
+                                                 const std::vector<exr::BadRows>& missing, StoredType type,
+                                                 bool certified) {
+    const OutputRequest request{options, missing, type, certified};
     const bool marked = options.output.find(kIlluminantMark) != std::string::npos;
     if (!marked && jobs.size() > 1 && !is_exr(options.output))
         return fail(ErrorCode::Usage,
@@ -173,7 +208,7 @@ Result<std::vector<CollapseOutput>> open_outputs(const CollapseOptions& options,
                         std::string(kIlluminantMark) + " in the output's name");
     OSIO_TRY(const auto names, names_of(jobs, marked || jobs.size() > 1));
     if (!marked && is_exr(options.output))
-        return open_exr(options, options.output, jobs, names, missing, type);
+        return open_exr(request, options.output, jobs, names);
     std::vector<CollapseOutput> out;
     for (std::size_t i = 0; i < jobs.size(); ++i) {
         std::string path = options.output;
@@ -181,10 +216,10 @@ Result<std::vector<CollapseOutput>> open_outputs(const CollapseOptions& options,
              at += names[i].size())
             path.replace(at, kIlluminantMark.size(), names[i]);
         if (is_exr(path)) {
-            OSIO_TRY(auto one, open_exr(options, path, {&jobs[i], 1}, {}, missing, type));
+            OSIO_TRY(auto one, open_exr(request, path, {&jobs[i], 1}, {}));
             out.push_back(std::move(one.front()));
         } else {
-            OSIO_TRY(auto one, open_other(options, path, jobs[i], header_of(jobs[i], missing), type));
+            OSIO_TRY(auto one, open_other(request, path, jobs[i]));
             out.push_back(std::move(one));
         }
     }

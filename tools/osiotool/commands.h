@@ -35,6 +35,7 @@ struct CollapseOptions {
     RequestWords request;
     std::string depth;        ///< half, float, uint8, uint16; empty: what suits the output
     std::string compression;  ///< of EXR output; empty: zip
+    std::string certificate;  ///< .json; empty: none
     unsigned threads = 0;
     bool raw = false;            ///< linear values into integers are wanted
     bool allow_partial = false;  ///< keep what is sound of a damaged input

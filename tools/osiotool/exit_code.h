@@ -8,10 +8,11 @@ namespace osio::tool {
 /// What the process tells its caller; documented in docs/cli.md.
 enum ExitCode : int {
     kDone = 0,
-    kDoesNotFit = 1,  ///< the request does not fit the file
-    kUsage = 2,       ///< a word or a combination of words that means nothing
-    kBadInput = 4,    ///< damaged, or not spectral
-    kSystem = 5,      ///< the operating system refused to read or write
+    kDoesNotFit = 1,    ///< the request does not fit the file
+    kUsage = 2,         ///< a word or a combination of words that means nothing
+    kNotCertified = 3,  ///< the result's error cannot be shown to be as small as was asked for
+    kBadInput = 4,      ///< damaged, or not spectral
+    kSystem = 5,        ///< the operating system refused to read or write
     kInterrupted = 130,
 };
 
@@ -26,6 +27,7 @@ enum ExitCode : int {
     case ErrorCode::BandsOutsideObserver:
     case ErrorCode::InvalidGrid:
     case ErrorCode::Unsupported: return kDoesNotFit;
+    case ErrorCode::NotCertified: return kNotCertified;
     case ErrorCode::NotSpectral:
     case ErrorCode::Damaged: return kBadInput;
     case ErrorCode::Io: return kSystem;

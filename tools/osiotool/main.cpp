@@ -53,7 +53,8 @@ class CommandLine {
                                fmt::format("osiotool {} (OpenEXR {})", OSIO_VERSION, exr::library_version()));
         m_app.require_subcommand(1);
         m_app.footer("Exit codes: 0 done, 1 the request does not fit the file, 2 usage or unknown "
-                     "name, 4 input damaged or not spectral, 5 the system refused, 130 interrupted.");
+                     "name, 3 not certified as max-delta-e asks, 4 input damaged or not spectral, 5 the "
+                     "system refused, 130 interrupted.");
         add_info();
         add_collapse();
         add_plan();
@@ -118,6 +119,11 @@ class CommandLine {
         command->add_option("--compression", m_collapse.compression, "of .exr output; default zip")
             ->type_name("C")
             ->group("Output");
+        command
+            ->add_option("--certificate", m_collapse.certificate,
+                         "writes what is proved of the result's error, and what is not")
+            ->type_name("FILE.json")
+            ->group("Output");
         command->add_flag("--raw", m_collapse.raw, "allow linear values in integers")->group("Output");
         command
             ->add_flag("--allow-partial", m_collapse.allow_partial,
@@ -136,7 +142,7 @@ class CommandLine {
         CLI::App* const command = add("plan", "what a collapse would do: recipe, weights, provenance",
                                       [this] { return run_plan(m_plan); });
         command->add_option("input", m_plan.input, "spectral OpenEXR or ENVI file")->required();
-        add_request_options(*command, m_plan.request);
+        add_request_options(*command, m_plan.request, {"max-delta-e", "white-luminance"});
         command->add_flag("--json", m_plan.json, "as JSON");
     }
 
@@ -173,8 +179,9 @@ class CommandLine {
                                       [this] { return run_difference(m_difference); });
         command->add_option("a", m_difference.a, "spectral, RGB or XYZ OpenEXR file, or ENVI")->required();
         command->add_option("b", m_difference.b, "the same")->required();
-        add_request_options(*command, m_difference.request,
-                            {"to", "config", "names", "adapt", "display", "scale"});
+        add_request_options(
+            *command, m_difference.request,
+            {"to", "config", "names", "adapt", "display", "scale", "max-delta-e", "white-luminance"});
         command->add_option("--map", m_difference.map, "writes the difference of every pixel")
             ->type_name("FILE.exr");
         command->add_option("--fail", m_difference.fail, "a pixel beyond this fails: exit code 1")
@@ -195,9 +202,9 @@ class CommandLine {
                                       [this] { return run_photometry(m_photometry); });
         command->add_option("input", m_photometry.input, "spectral OpenEXR or ENVI file; none: --illuminant");
         command->add_option("output", m_photometry.output, "luminance image, .exr");
-        add_request_options(
-            *command, m_photometry.request,
-            {"to", "config", "names", "adapt", "observer", "white", "display", "scale", "filter-normalise"});
+        add_request_options(*command, m_photometry.request,
+                            {"to", "config", "names", "adapt", "observer", "white", "display", "scale",
+                             "filter-normalise", "max-delta-e", "white-luminance"});
         command->add_option("--threads", m_photometry.threads, "default: one a processor")->type_name("N");
         command->add_flag("--quiet", m_photometry.quiet, "no warnings, no progress");
         command->add_flag("--json", m_photometry.json, "as JSON");
@@ -236,7 +243,7 @@ class CommandLine {
             add("weights", "a collapse as a table, or as a command that needs no plugin",
                 [this] { return run_weights(m_weights); });
         command->add_option("input", m_weights.input, "spectral OpenEXR file")->required();
-        add_request_options(*command, m_weights.request, {"names"});
+        add_request_options(*command, m_weights.request, {"names", "max-delta-e", "white-luminance"});
         command->add_flag("--oiiotool", m_weights.oiiotool, "the command of a stock oiiotool");
         command->add_option("-o", m_weights.output, "output of that command; default out.exr")
             ->type_name("OUT");

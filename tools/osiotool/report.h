@@ -5,6 +5,7 @@
 #include <formats/exr/chunk_map.h>
 #include <formats/exr/exr_file.h>
 #include <formats/exr/soundness.h>
+#include <formats/image/certificate.h>
 #include <formats/image/collapse_job.h>
 #include <formats/image/colour_image.h>
 
@@ -35,6 +36,7 @@ struct CollapseOutcome {
     std::uint64_t clipped_pixels = 0;   ///< outside 0 to 1 in an integer
     std::vector<exr::BadRows> missing;  ///< damaged rows of the input, written black
     double seconds = 0;
+    std::optional<image::Certificate> certificate;  ///< where one was asked for
 };
 
 /// What a conversion did.

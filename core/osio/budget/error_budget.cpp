@@ -44,17 +44,22 @@ bool any_weight(const MagnitudeWeights& weights) {
     return false;
 }
 
-using Planes = std::array<std::array<float, kRun>, 3>;
+using Run = std::array<float, kRun>;
+using Planes = std::array<Run, 3>;
+
+/// More than a dozen roundings of positive floats take away.
+constexpr double kFloatSlack = 1 + 0x1p-19;
 
 std::array<float*, 3> pointers(Planes& planes) {
     return {planes[0].data(), planes[1].data(), planes[2].data()};
 }
 
-Matrix3 absolute(Matrix3 m) {
-    for (Vector3& row : m.rows)
-        for (double& value : row)
-            value = std::abs(value);
-    return m;
+std::array<std::array<float, 3>, 3> as_floats(const Matrix3& m, bool absolute) {
+    std::array<std::array<float, 3>, 3> out{};
+    for (std::size_t r = 0; r < 3; ++r)
+        for (std::size_t c = 0; c < 3; ++c)
+            out[r][c] = static_cast<float>(absolute ? std::abs(m.rows[r][c]) : m.rows[r][c]);
+    return out;
 }
 
 }  // namespace
@@ -101,7 +106,9 @@ void BudgetResult::add(const BudgetResult& other) {
 /// What all workers share.
 struct ErrorBudget::Setup {
     Setup(BudgetSubject what, OutputColour output)
-        : subject(std::move(what)), colour(output), error_from_output(absolute(output.share_from_output)),
+        : subject(std::move(what)), colour(output),
+          share_from_output(as_floats(output.share_from_output, false)),
+          error_from_output(as_floats(output.share_from_output, true)),
           storage(subject.depth, subject.plan.space.transfer) {
         const WeightMatrix& weights = subject.plan.weights;
         std::vector<bool> half, other;
@@ -115,6 +122,7 @@ struct ErrorBudget::Setup {
             reference = MagnitudeWeights(subject.reference->weights);
         has_halves = any_weight(halves);
         has_others = any_weight(others);
+        present = {true, subject.reference != nullptr, has_halves, storage.any()};
         // Rounded up to float by a term more than there are.
         rounding = static_cast<float>(double_roundings(weights.bands() + 2));
         for (std::size_t row = 0; row < weights.rows(); ++row) {
@@ -127,32 +135,34 @@ struct ErrorBudget::Setup {
 
     BudgetSubject subject;
     OutputColour colour;
-    Matrix3 error_from_output;
+    std::array<std::array<float, 3>, 3> share_from_output, error_from_output;
     StoredError storage;
     LabSlope slope;
     MagnitudeWeights halves, others, reference;
     bool has_halves = false, has_others = false;
-    float rounding = 0;                ///< of all sums, relative to the sum of magnitudes
-    std::array<float, 3> subnormal{};  ///< of halves below 2^-14
+    std::array<bool, kErrorSources.size()> present{};  ///< by ErrorSource: there is such an error at all
+    float rounding = 0;                                ///< of all sums, relative to the sum of magnitudes
+    std::array<float, 3> subnormal{};                  ///< of halves below 2^-14
 };
 
+/// Works on whole runs: loops of a constant length, over pixels, become vectors. Behind the last pixel lie
+/// zeros, which have no error. Errors are floats; what their own few roundings lose is in kFloatSlack.
 class ErrorBudget::Worker final : public WitnessWorker {
   public:
     explicit Worker(ErrorBudget& budget) : m_budget(budget), m_setup(*budget.m_setup) {}
 
     void look(std::span<const BandView> bands, std::size_t count,
               std::span<const float* const> sums) override {
-        std::vector<BandView> run(bands.begin(), bands.end());
+        m_bands.assign(bands.begin(), bands.end());
         for (std::size_t first = 0; first < count; first += kRun) {
-            const std::size_t pixels = std::min(kRun, count - first);
+            m_pixels = std::min(kRun, count - first);
             for (std::size_t band = 0; band < bands.size(); ++band)
-                run[band] = bands[band].advanced(first);
-            for (std::size_t row = 0; row < sums.size(); ++row)
-                m_sums[row] = sums[row] + first;
-            measure(run, pixels);
-            for (std::size_t pixel = 0; pixel < pixels; ++pixel)
-                judge(pixel);
-            m_seen.pixels += pixels;
+                m_bands[band] = bands[band].advanced(first);
+            take_sums(sums, first);
+            measure();
+            bound_outputs();
+            bound_colours();
+            m_seen.pixels += m_pixels;
         }
     }
 
@@ -164,109 +174,193 @@ class ErrorBudget::Worker final : public WitnessWorker {
   private:
     [[nodiscard]] std::size_t rows() const { return m_setup.subject.plan.weights.rows(); }
 
+    /// The run's sums; those of pixels without a colour as zeros, and counted.
+    void take_sums(std::span<const float* const> sums, std::size_t first) {
+        m_defined.fill(0);
+        std::fill_n(m_defined.begin(), m_pixels, 1.0F);
+        for (std::size_t row = 0; row < rows(); ++row)
+            for (std::size_t i = 0; i < m_pixels; ++i)
+                if (!std::isfinite(sums[row][first + i]))
+                    m_defined[i] = 0;
+        for (std::size_t row = 0; row < rows(); ++row) {
+            m_sums[row].fill(0);
+            for (std::size_t i = 0; i < m_pixels; ++i)
+                m_sums[row][i] = m_defined[i] != 0 ? sums[row][first + i] : 0;
+        }
+        m_seen.undefined += m_pixels - static_cast<std::size_t>(std::count(
+                                           m_defined.begin(),
+                                           m_defined.begin() + static_cast<std::ptrdiff_t>(m_pixels), 1.0F));
+    }
+
     /// Everything about the run's bands that needs them all.
-    void measure(std::span<const BandView> bands, std::size_t pixels) {
+    void measure() {
         const BudgetSubject& subject = m_setup.subject;
         if (m_setup.has_halves)
-            magnitude_run(bands, m_setup.halves, SampleMeasure::Binade, pixels, pointers(m_halves));
+            magnitude_run(m_bands, m_setup.halves, SampleMeasure::Binade, m_pixels, pointers(m_halves));
         if (m_setup.has_others)
-            magnitude_run(bands, m_setup.others, SampleMeasure::Magnitude, pixels, pointers(m_others));
+            magnitude_run(m_bands, m_setup.others, SampleMeasure::Magnitude, m_pixels, pointers(m_others));
         if (subject.reference != nullptr) {
-            collapse_run(bands, subject.reference->weights, pixels, pointers(m_reference));
-            magnitude_run(bands, m_setup.reference, SampleMeasure::Magnitude, pixels,
+            collapse_run(m_bands, subject.reference->weights, m_pixels, pointers(m_reference));
+            magnitude_run(m_bands, m_setup.reference, SampleMeasure::Magnitude, m_pixels,
                           pointers(m_reference_magnitudes));
         }
         m_alternatives.resize(subject.alternatives.size());
         for (std::size_t i = 0; i < m_alternatives.size(); ++i)
-            collapse_run(bands, subject.alternatives[i]->weights, pixels, pointers(m_alternatives[i]));
+            collapse_run(m_bands, subject.alternatives[i]->weights, m_pixels, pointers(m_alternatives[i]));
     }
 
-    /// The errors of each output at a pixel, source by source.
-    void judge(std::size_t pixel) {
-        Vector3 value{};
-        bool finite = true;
+    /// Of a sum in double of terms of some magnitude, rounded to float.
+    void bound_rounding(const Run& sums, const Run& magnitudes, Run& out) const {
+        for (std::size_t i = 0; i < kRun; ++i)
+            out[i] = m_setup.rounding * magnitudes[i] + 0x1p-24F * std::abs(sums[i]) + 0x1p-149F;
+    }
+
+    /// The errors of the outputs, source by source.
+    void bound_outputs() {
         for (std::size_t row = 0; row < rows(); ++row) {
-            value[row] = static_cast<double>(m_sums[row][pixel]);
-            finite = finite && std::isfinite(value[row]);
+            // A sample is below twice its binade.
+            Run magnitudes{};
+            if (m_setup.has_others)
+                magnitudes = m_others[row];
+            if (m_setup.has_halves)
+                for (std::size_t i = 0; i < kRun; ++i)
+                    magnitudes[i] += 2 * m_halves[row][i];
+            bound_rounding(m_sums[row], magnitudes, errors(ErrorSource::Arithmetic)[row]);
+            if (m_setup.subject.reference != nullptr) {
+                Run& plan = errors(ErrorSource::Plan)[row];
+                bound_rounding(m_reference[row], m_reference_magnitudes[row], plan);
+                for (std::size_t i = 0; i < kRun; ++i)
+                    plan[i] += std::abs(m_sums[row][i] - m_reference[row][i]);
+            }
+            if (m_setup.has_halves)
+                for (std::size_t i = 0; i < kRun; ++i)
+                    errors(ErrorSource::InputStorage)[row][i] =
+                        kHalfUnit * m_halves[row][i] + m_setup.subnormal[row];
+            if (m_setup.storage.any())
+                bound_storage(m_sums[row], errors(ErrorSource::OutputStorage)[row]);
         }
-        if (!finite) {
-            ++m_seen.undefined;
+        if (m_setup.storage.any())
+            count_clamped();
+    }
+
+    void bound_storage(const Run& sums, Run& out) const {
+        for (std::size_t i = 0; i < m_pixels; ++i)
+            out[i] = m_setup.storage.of(sums[i]);
+    }
+
+    void count_clamped() {
+        for (std::size_t i = 0; i < m_pixels; ++i) {
+            bool clamped = false;
+            for (std::size_t row = 0; row < rows(); ++row)
+                clamped = clamped || m_setup.storage.clamps(m_sums[row][i]);
+            m_seen.clamped += clamped;
+        }
+    }
+
+    /// From outputs to X, Y, Z, and to colour differences.
+    void bound_colours() {
+        Planes& total = m_errors.back();
+        for (Run& plane : total)
+            plane.fill(0);
+        for (const ErrorSource source : kErrorSources) {
+            if (!m_setup.present[static_cast<std::size_t>(source)])
+                continue;
+            to_colour(m_setup.error_from_output, errors(source));
+            for (std::size_t c = 0; c < 3; ++c)
+                for (std::size_t i = 0; i < kRun; ++i)
+                    total[c][i] += errors(source)[c][i];
+        }
+        m_share = m_sums;
+        to_colour(m_setup.share_from_output, m_share);
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < kRun; ++i)
+                m_slopes[c][i] = m_setup.slope.at_and_above(m_share[c][i] - total[c][i]);
+        for (const ErrorSource source : kErrorSources)
+            if (m_setup.present[static_cast<std::size_t>(source)])
+                widen(m_seen.terms[static_cast<std::size_t>(source)], errors(source));
+        widen(m_seen.total, total);  // last: m_squared is the total's from here on
+        compare();
+    }
+
+    void to_colour(const std::array<std::array<float, 3>, 3>& matrix, Planes& planes) const {
+        if (rows() == 1)
+            planes[1] = planes[2] = Run{};
+        for (std::size_t i = 0; i < kRun; ++i) {
+            const float a = planes[0][i], b = planes[1][i], c = planes[2][i];
+            for (std::size_t r = 0; r < 3; ++r)
+                planes[r][i] = matrix[r][0] * a + matrix[r][1] * b + matrix[r][2] * c;
+        }
+    }
+
+    /// The largest of a run's errors.
+    void widen(ErrorBound& bound, const Planes& error) {
+        std::array<float, 3> largest{};
+        float squared = 0;
+        const bool grey = m_setup.colour.achromatic;
+        for (std::size_t i = 0; i < kRun; ++i) {
+            const float l = 116 * m_slopes[1][i] * error[1][i];  // S_L of CIEDE2000 is 1 or more
+            m_squared[i] = grey ? l * l
+                                : squared_delta_e_bound({m_slopes[0][i], m_slopes[1][i], m_slopes[2][i]},
+                                                        {error[0][i], error[1][i], error[2][i]});
+        }
+        for (std::size_t i = 0; i < kRun; ++i) {
+            const float defined = m_defined[i];
+            squared = std::max(squared, m_squared[i] * defined);
+            for (std::size_t c = 0; c < 3; ++c)
+                largest[c] = std::max(largest[c], error[c][i] * defined);
+        }
+        ErrorBound seen;
+        for (std::size_t c = 0; c < 3; ++c)
+            seen.xyz[c] = static_cast<double>(largest[c]) * kFloatSlack;
+        seen.delta_e_2000 = std::sqrt(static_cast<double>(squared)) * kFloatSlack;
+        bound.widen(seen);
+    }
+
+    /// The alternatives, and the total together with them.
+    void compare() {
+        const auto& tolerance = m_setup.subject.tolerance;
+        if (m_alternatives.empty() && !tolerance) {
+            m_seen.with_indicator = m_seen.total.delta_e_2000;
             return;
         }
-        std::array<Vector3, kErrorSources.size()> errors{};
-        bool clamped = false;
-        for (std::size_t row = 0; row < rows(); ++row) {
-            const float v = m_sums[row][pixel];
-            // A sample is below twice its binade.
-            const float halves = m_setup.has_halves ? m_halves[row][pixel] : 0;
-            const float magnitude = 2 * halves + (m_setup.has_others ? m_others[row][pixel] : 0);
-            errors[0][row] = rounding_of(v, magnitude);
-            if (m_setup.subject.reference != nullptr) {
-                const float other = m_reference[row][pixel];
-                errors[1][row] = std::abs(value[row] - static_cast<double>(other)) +
-                                 rounding_of(other, m_reference_magnitudes[row][pixel]);
-            }
-            errors[2][row] =
-                m_setup.has_halves ? static_cast<double>(kHalfUnit * halves + m_setup.subnormal[row]) : 0;
-            errors[3][row] = m_setup.storage.of(v, clamped);
-        }
-        m_seen.clamped += clamped;
-        bound(value, errors, pixel);
-    }
-
-    /// Of a sum in double of terms of this magnitude, rounded to float.
-    [[nodiscard]] double rounding_of(float sum, float magnitude) const {
-        return static_cast<double>(m_setup.rounding * magnitude + 0x1p-24F * std::abs(sum)) + 0x1p-149;
-    }
-
-    [[nodiscard]] double delta_e(const std::array<float, 3>& share, const Vector3& error) const {
-        return delta_e_bound(
-            m_setup.slope, share,
-            {static_cast<float>(error[0]), static_cast<float>(error[1]), static_cast<float>(error[2])});
-    }
-
-    void bound(const Vector3& value, const std::array<Vector3, kErrorSources.size()>& errors,
-               std::size_t pixel) {
-        const Vector3 exact = m_setup.colour.share_from_output * value;
-        const std::array<float, 3> share{static_cast<float>(exact[0]), static_cast<float>(exact[1]),
-                                         static_cast<float>(exact[2])};
-        Vector3 sum{};
-        for (std::size_t i = 0; i < errors.size(); ++i) {
-            if (errors[i] == Vector3{})
+        for (std::size_t i = 0; i < m_pixels; ++i) {
+            if (m_defined[i] == 0)
                 continue;
-            const Vector3 error = m_setup.error_from_output * errors[i];
-            for (std::size_t c = 0; c < 3; ++c)
-                sum[c] += error[c];
-            m_seen.terms[i].widen({error, delta_e(share, error)});
+            const double total = std::sqrt(static_cast<double>(m_squared[i])) * kFloatSlack;
+            const double away = farthest(i);
+            m_seen.indicator = std::max(m_seen.indicator, away);
+            m_seen.with_indicator = std::max(m_seen.with_indicator, total + away);
+            m_seen.beyond += tolerance && !(total + away <= *tolerance);
         }
-        const double total = delta_e(share, sum);
-        m_seen.total.widen({sum, total});
-        const double away = farthest(exact, pixel);
-        m_seen.indicator = std::max(m_seen.indicator, away);
-        m_seen.with_indicator = std::max(m_seen.with_indicator, total + away);
-        const auto& tolerance = m_setup.subject.tolerance;
-        m_seen.beyond += tolerance && !(total + away <= *tolerance);
     }
 
     /// CIEDE2000 to the farthest alternative.
-    [[nodiscard]] double farthest(const Vector3& share, std::size_t pixel) const {
-        double out = 0;
-        const Lab here = lab_of(share, {1, 1, 1});
-        for (const Planes& planes : m_alternatives) {
-            Vector3 other{};
+    [[nodiscard]] double farthest(std::size_t pixel) const {
+        const auto lab_at = [&](const Planes& planes) {
+            Vector3 outputs{};
             for (std::size_t row = 0; row < rows(); ++row)
-                other[row] = static_cast<double>(planes[row][pixel]);
-            out = std::max(out,
-                           delta_e_2000(here, lab_of(m_setup.colour.share_from_output * other, {1, 1, 1})));
-        }
+                outputs[row] = static_cast<double>(planes[row][pixel]);
+            return lab_of(m_setup.colour.share_from_output * outputs, {1, 1, 1});
+        };
+        double out = 0;
+        const Lab here = lab_at(m_sums);
+        for (const Planes& planes : m_alternatives)
+            out = std::max(out, delta_e_2000(here, lab_at(planes)));
         return out;
     }
+
+    Planes& errors(ErrorSource source) { return m_errors[static_cast<std::size_t>(source)]; }
 
     ErrorBudget& m_budget;
     const Setup& m_setup;
     BudgetResult m_seen;
-    std::array<const float*, 3> m_sums{};
-    Planes m_halves{}, m_others{}, m_reference{}, m_reference_magnitudes{};
+    std::vector<BandView> m_bands;  ///< of the run
+    std::size_t m_pixels = 0;
+    Run m_defined{};  ///< 1 or 0
+    Planes m_sums{}, m_halves{}, m_others{}, m_reference{}, m_reference_magnitudes{};
+    std::array<Planes, kErrorSources.size() + 1> m_errors{};  ///< by ErrorSource, then all together
+    Planes m_share{}, m_slopes{};
+    Run m_squared{};
     std::vector<Planes> m_alternatives;
 };
 

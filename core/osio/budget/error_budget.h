@@ -84,7 +84,7 @@ struct BudgetSubject {
 ///     input storage   SUM |w| (half a unit in the last place of each half)
 ///     output storage  half a unit in the last place of the stored type, or what clamping took
 ///
-/// carried to X, Y, Z by the absolute values of the space's matrix and to CIEDE2000 by delta_e_bound().
+/// carried to X, Y, Z by the absolute values of the space's matrix and to CIEDE2000 by lab_bound.h.
 /// Memory is a few kB a worker.
 class ErrorBudget final : public CollapseWitness {
   public:

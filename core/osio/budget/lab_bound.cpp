@@ -2,6 +2,7 @@
 #include <osio/budget/lab_bound.h>
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
 
 namespace osio {
@@ -27,15 +28,6 @@ LabSlope::LabSlope() {
         m_slopes[i] = static_cast<float>(slope * (1 + 0x1p-22));
     }
     m_slopes[0] = static_cast<float>(kLineSlope * (1 + 0x1p-22));
-}
-
-double delta_e_bound(const LabSlope& slope, const std::array<float, 3>& t,
-                     const std::array<float, 3>& error) {
-    Vector3 df;
-    for (std::size_t c = 0; c < 3; ++c)
-        df[c] = static_cast<double>(slope.at_and_above(t[c] - error[c])) * static_cast<double>(error[c]);
-    const double dl = 116 * df[1], da = 500 * (df[0] + df[1]), db = 200 * (df[1] + df[2]);
-    return kDeltaE2000PerDeltaE76 * std::sqrt(dl * dl + da * da + db * db);
 }
 
 }  // namespace osio

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <osio/base/matrix3.h>
-
 #include <array>
-#include <cmath>
+#include <cstddef>
 
 /// From an error in tristimulus values to a colour difference that it cannot exceed.
 namespace osio {
@@ -42,9 +40,14 @@ class LabSlope {
     std::array<float, (23U << (23 - kDroppedBits)) + 1> m_slopes{};
 };
 
-/// The largest CIEDE2000 difference to a colour whose X, Y and Z, as shares of the white's, are within `error`
-/// of `t`. `error` must not be negative; an infinite or undefined one gives infinity or NaN.
-[[nodiscard]] double delta_e_bound(const LabSlope& slope, const std::array<float, 3>& t,
-                                   const std::array<float, 3>& error);
+/// The square of the CIEDE2000 difference that errors in X, Y and Z, as shares of the white's, do not exceed
+/// where the slopes of f are at most these: |df| <= slope x error, and L*, a*, b* are linear in f.
+[[nodiscard]] inline float squared_delta_e_bound(const std::array<float, 3>& slope,
+                                                 const std::array<float, 3>& error) {
+    constexpr auto kFactor = static_cast<float>(kDeltaE2000PerDeltaE76 * kDeltaE2000PerDeltaE76);
+    const float x = slope[0] * error[0], y = slope[1] * error[1], z = slope[2] * error[2];
+    const float l = 116 * y, a = 500 * (x + y), b = 200 * (y + z);
+    return kFactor * (l * l + a * a + b * b);
+}
 
 }  // namespace osio

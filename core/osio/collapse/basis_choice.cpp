@@ -38,6 +38,12 @@ bool interpolates(Basis basis) {
     return basis == Basis::Sprague || basis == Basis::E2022;
 }
 
+/// The same choice, as one that somebody stated.
+BasisChoice stated(BasisChoice choice) {
+    choice.stated = true;
+    return choice;
+}
+
 /// The basis as asked for, or Linear where the bands are too few or too close, aloud.
 BasisChoice fitted(Basis basis, std::string reason, const BandGrid& grid) {
     const std::size_t fewest = fewest_bands(basis);
@@ -68,10 +74,10 @@ Result<void> check_fits(Basis basis, const BandGrid& grid) {
 
 BasisChoice suggested(const SpectralSet& set, const BandGrid& grid) {
     if (!grid.responses.empty())
-        return fitted(Basis::Response, "every band states its own response", grid);
+        return stated(fitted(Basis::Response, "every band states its own response", grid));
     const std::string steps = grid.uniform() ? " at equal steps" : " at unequal steps";
     if (!grid.edges_nm.empty())
-        return {Basis::Bins, "the file states the edges of its bins", std::nullopt};
+        return stated({Basis::Bins, "the file states the edges of its bins", std::nullopt});
     if (grid.size() > 1 && grid.mean_step_nm() <= 1)
         return {Basis::Linear, "bands 1 nm apart or closer are the samples that CIE 15 sums", std::nullopt};
     if (set.quantity() == Quantity::Radiance) {
@@ -118,15 +124,15 @@ Result<BasisChoice> choose_basis(Basis requested, const SpectralSet& set, const 
                                  const SpectralMetadata& metadata) {
     if (requested != Basis::Auto) {
         OSIO_CHECK_OK(check_fits(requested, grid));
-        return fitted(requested, "as requested", grid);
+        return stated(fitted(requested, "as requested", grid));
     }
     if (metadata.basis) {
-        const auto stated = find_basis(*metadata.basis);
-        if (stated && *stated != Basis::Auto && check_fits(*stated, grid))
-            return fitted(*stated, "the file states spectral:basis \"" + *metadata.basis + "\"", grid);
+        const auto named = find_basis(*metadata.basis);
+        if (named && *named != Basis::Auto && check_fits(*named, grid))
+            return stated(fitted(*named, "the file states spectral:basis \"" + *metadata.basis + "\"", grid));
         BasisChoice choice = suggested(set, grid);
         choice.warning = "spectral:basis is \"" + *metadata.basis + "\", which " +
-                         (stated ? "these bands cannot have" : "is unknown") + ": " +
+                         (named ? "these bands cannot have" : "is unknown") + ": " +
                          std::string(basis_name(choice.basis)) + " is used";
         return choice;
     }

@@ -36,6 +36,7 @@ struct BasisChoice {
     Basis basis = Basis::Linear;
     std::string reason;
     std::optional<std::string> warning;
+    bool stated = false;  ///< by the request or the file, rather than taken for likely
 };
 
 /// True where a basis other than Auto can be used on a grid as it is, without falling back to Linear.

@@ -36,6 +36,9 @@ class DirectWorker final : public RowWorker {
     int m_row_count = 0;
 };
 
+/// 81 bands of floats are 166 kB then.
+constexpr std::size_t kWitnessedPixels = 512;
+
 /// What all workers of one collapse share. `counts` belongs to deliver(), one call at a time.
 struct Collapse {
     std::span<const CollapseTarget> targets;
@@ -101,8 +104,10 @@ class Collapser final : public BlockVisitor {
   public:
     explicit Collapser(Collapse& collapse)
         : m_shared(collapse), m_planes(collapse.weights.rows() + (collapse.has_alpha ? 1 : 0)) {
-        for (const CollapseTarget& target : collapse.targets)
+        for (const CollapseTarget& target : collapse.targets) {
             m_branches.emplace_back(target);
+            m_witnessed = m_witnessed || target.witness != nullptr;
+        }
     }
 
     void process(const PlanarBlock& block) override {
@@ -138,23 +143,33 @@ class Collapser final : public BlockVisitor {
     }
 
   private:
-    /// The sums of some pixels, and their alpha.
+    /// The sums of some pixels, and their alpha. Where somebody looks on, in pieces that stay in the cache
+    /// until they have been looked at.
     void sum(std::size_t first, std::size_t count, std::span<const BandView> planes) {
-        const std::size_t rows = m_shared.weights.rows();
-        m_sums.clear();
-        for (std::size_t row = 0; row < rows; ++row)
-            m_sums.push_back(m_planes[row].data() + first);
         const auto bands = planes.first(m_shared.weights.bands());
-        collapse_run(bands, m_shared.weights, count, m_sums);
-        const float* const* sums = m_sums.data();
-        for (const Branch& branch : m_branches) {
-            if (branch.witness)
-                branch.witness->look(bands, count, {sums, branch.outputs});
-            sums += branch.outputs;
+        const std::size_t piece = m_witnessed ? kWitnessedPixels : count;
+        for (std::size_t done = 0; done < count; done += piece) {
+            m_piece.clear();
+            for (const BandView& band : bands)
+                m_piece.push_back(band.advanced(done));
+            sum_piece(first + done, std::min(piece, count - done));
         }
         if (m_shared.has_alpha)
             for (std::size_t pixel = 0; pixel < count; ++pixel)
                 m_planes.back()[first + pixel] = static_cast<float>(sample_at(planes.back(), pixel));
+    }
+
+    void sum_piece(std::size_t first, std::size_t count) {
+        m_sums.clear();
+        for (std::size_t row = 0; row < m_shared.weights.rows(); ++row)
+            m_sums.push_back(m_planes[row].data() + first);
+        collapse_run(m_piece, m_shared.weights, count, m_sums);
+        const float* const* sums = m_sums.data();
+        for (const Branch& branch : m_branches) {
+            if (branch.witness)
+                branch.witness->look(m_piece, count, {sums, branch.outputs});
+            sums += branch.outputs;
+        }
     }
 
     /// Turns the sums from plane `first` on into what the target's space means, and prepares its rows.
@@ -180,7 +195,9 @@ class Collapser final : public BlockVisitor {
     Result<void> m_prepared;
     std::vector<std::vector<float>> m_planes;
     std::vector<float*> m_pointers;
-    std::vector<float*> m_sums;  ///< of the run in work
+    std::vector<BandView> m_piece;  ///< of the run in work
+    std::vector<float*> m_sums;
+    bool m_witnessed = false;
     std::vector<const float*> m_rows;
     int m_first_row = 0;
     int m_row_count = 0;

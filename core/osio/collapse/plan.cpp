@@ -259,7 +259,9 @@ class PlanMaker {
     void name_it() {
         Fingerprint id;
         CollapseRequest request = m_plan.request;
-        request.config.clear();  // the processor says what it does, wherever the config lies
+        request.config.clear();       // the processor says what it does, wherever the config lies
+        request.max_delta_e.reset();  // what is proved of the weights does not change them
+        request.white_luminance.reset();
         id.add(recipe_text(request)).add(m_plan.observer.digest);
         id.add(basis_name(m_plan.basis.basis));
         if (m_plan.illuminant)

@@ -37,6 +37,9 @@ constexpr auto kOptions = std::to_array<RequestOption>({
     {"scale", "relative|photometric|integral", "unit of the result; default relative"},
     {"exposure", "STOPS", "multiplies the result by 2^STOPS"},
     {"names", "rgb|xyz", "channel names of the result; in raw mode: layout keeps the file's"},
+    {"max-delta-e", "DE", "no image unless no pixel can be wrong by more than this CIEDE2000"},
+    {"white-luminance", "Y",
+     "of max-delta-e and certificates: Y of the white; default 1, of radiance the 99th percentile"},
 });
 
 /// A choice among words.
@@ -107,6 +110,14 @@ Result<void> set_exposure(CollapseRequest& request, std::string_view value) {
     return {};
 }
 
+Result<double> parse_positive(std::string_view key, std::string_view value) {
+    const auto number = parse_double(value);
+    if (!number || *number <= 0)
+        return fail(ErrorCode::Usage,
+                    std::string(key) + " \"" + std::string(value) + "\" is no number above 0");
+    return *number;
+}
+
 Result<void> set_observer(CollapseRequest& request, std::string_view value) {
     if (is_table_path(value)) {
         request.observer = value;
@@ -169,6 +180,10 @@ Result<void> set_option(CollapseRequest& request, std::string_view key, std::str
         request.illuminant = value;
     } else if (key == "config") {
         request.config = value;
+    } else if (key == "max-delta-e") {
+        OSIO_TRY(request.max_delta_e, parse_positive(key, value));
+    } else if (key == "white-luminance") {
+        OSIO_TRY(request.white_luminance, parse_positive(key, value));
     } else if (key == "part") {
         request.part = value;
     } else if (key == "set") {
@@ -210,6 +225,10 @@ std::string recipe_text(const CollapseRequest& request) {
     add("adapt", adaptation_name(request.adaptation));
     add("exposure", format_double(request.exposure_stops));
     add("names", kNames.name(request.names));
+    if (request.max_delta_e)
+        add("max-delta-e", format_double(*request.max_delta_e));
+    if (request.white_luminance)
+        add("white-luminance", format_double(*request.white_luminance));
     return out;
 }
 

@@ -49,6 +49,8 @@ struct CollapseRequest {
     Adaptation adaptation = Adaptation::Bradford;
     double exposure_stops = 0;
     OutputNames names = OutputNames::Default;
+    std::optional<double> max_delta_e;      ///< CIEDE2000 that no pixel's certified error may exceed
+    std::optional<double> white_luminance;  ///< Y of the white that CIEDE2000 refers to; nothing: see docs
 };
 
 /// One option: `key` is the word, `value` what it takes, `help` a line for people.

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <formats/image/certificate.h>
+
+#include <osio/base/text.h>
+#include <osio/base/value_statistics.h>
+#include <osio/budget/basis_alternatives.h>
+#include <osio/collapse/basis_spread.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace osio::image {
+
+namespace {
+
+/// A white that is exceeded by highlights only.
+constexpr double kWhitePercentile = 99;
+
+/// Digits of a CIEDE2000 in a sentence.
+constexpr int kDigits = 3;
+
+/// Takes rows and forgets them.
+class NoSink final : public RowSink {
+  public:
+    [[nodiscard]] Result<void> write_rows(int, int, std::span<const float* const>) override { return {}; }
+};
+
+/// Gathers one plane.
+class StatisticsSink final : public RowSink {
+  public:
+    explicit StatisticsSink(std::size_t width) : m_width(width) {}
+
+    [[nodiscard]] Result<void> write_rows(int, int row_count, std::span<const float* const> planes) override {
+        for (std::size_t i = 0; i < static_cast<std::size_t>(row_count) * m_width; ++i)
+            m_values.add(static_cast<double>(planes[0][i]));
+        return {};
+    }
+
+    [[nodiscard]] const ValueStatistics& values() const { return m_values; }
+
+  private:
+    std::size_t m_width;
+    ValueStatistics m_values;
+};
+
+RowRange all_rows(const CollapseJob& job) {
+    return {job.part().data_window.min_y, job.part().data_window.max_y};
+}
+
+Result<double> bright_luminance(const CollapseJob& job, const TextLoader& load_text, Runner& runner,
+                                const Progress& progress) {
+    CollapseRequest request = job.plan.request;
+    OSIO_TRY(request.to, find_output_space("luminance"));
+    request.names = OutputNames::Default;
+    request.adaptation = CollapseRequest{}.adaptation;
+    request.white.clear();
+    OSIO_TRY(CollapseJob luminance, prepare_collapse(job.file, request, load_text));
+    luminance.alpha.reset();
+    OSIO_TRY(const auto source, luminance.open_source());
+    StatisticsSink sink(static_cast<std::size_t>(job.part().data_window.width()));
+    if (auto done = collapse_stream(*source, luminance.plan, false, all_rows(job), sink, runner, progress);
+        !done)
+        return tl::unexpected(std::move(done).error());
+    const double bright = sink.values().percentile(kWhitePercentile);
+    return bright > 0 ? bright : 1.0;
+}
+
+std::string delta_text(double delta_e) {
+    return format_fixed(delta_e, kDigits);
+}
+
+std::string remedy(ErrorSource source) {
+    switch (source) {
+    case ErrorSource::Arithmetic: return "the sums cancel: no executor of ours is more exact";
+    case ErrorSource::Plan: return "use the reference's own weights";
+    case ErrorSource::InputStorage:
+        return "the file's halves are too coarse: render or convert to float bands";
+    case ErrorSource::OutputStorage: break;
+    }
+    return "store more digits: -d float";
+}
+
+}  // namespace
+
+std::string Certificate::failure(const CollapseJob& job) const {
+    if (budget.undefined > 0)
+        return std::to_string(budget.undefined) + " of " + std::to_string(budget.pixels) +
+               " pixels are NaN or infinite, of which nothing can be certified; expected numbers";
+    std::string out = "the error of " + std::to_string(budget.beyond) + " of " +
+                      std::to_string(budget.pixels) + " pixels is not shown to be within CIEDE2000 " +
+                      format_double(*max_delta_e) + ": at most " + delta_text(budget.total.delta_e_2000) +
+                      " is proved, and the indicator is " + delta_text(budget.indicator) + "; ";
+    const auto largest =
+        std::max_element(kErrorSources.begin(), kErrorSources.end(), [this](ErrorSource a, ErrorSource b) {
+            return budget.term(a).delta_e_2000 < budget.term(b).delta_e_2000;
+        });
+    if (budget.indicator >= budget.total.delta_e_2000)
+        return out + "the indicator fails: " + std::to_string(job.plan.distinct.grid.size()) + " bands of " +
+               format_double(std::round(10 * job.plan.distinct.grid.mean_step_nm()) / 10) +
+               " nm mean one colour with basis " + std::string(basis_name(job.plan.basis.basis)) +
+               " and another with " + join(alternatives, ", ") +
+               (job.plan.illuminant ? " under " + job.plan.illuminant->id : std::string()) +
+               "; expected narrower bands, or a file that states its basis (spectral:basis)";
+    return out + "the term that fails is " + std::string(error_source_name(*largest)) + ", " +
+           delta_text(budget.term(*largest).delta_e_2000) + ": " + remedy(*largest);
+}
+
+Result<std::unique_ptr<Certifier>> Certifier::create(const CollapseJob& job, StoredDepth depth,
+                                                     const TextLoader& load_text, Runner& runner,
+                                                     const Progress& progress) {
+    std::unique_ptr<Certifier> out(new Certifier);
+    Certificate& certificate = out->m_certificate;
+    const CollapseRequest& request = job.plan.request;
+    certificate.depth = depth;
+    certificate.max_delta_e = request.max_delta_e;
+    certificate.assumption = alternatives_assumption(job.plan);
+    BudgetSubject subject{job.plan, job.band_types(), depth, job.alpha.has_value()};
+    // What is refused is refused before the image is read for its white.
+    OSIO_CHECK_OK(ErrorBudget::create(subject));
+    if (request.white_luminance) {
+        certificate.white_luminance = *request.white_luminance;
+        certificate.white_reason = "as requested";
+    } else if (job.plan.illuminant) {
+        certificate.white_luminance = 1;
+        certificate.white_reason = "the perfect diffuser";
+    } else {
+        OSIO_TRY(certificate.white_luminance, bright_luminance(job, load_text, runner, progress));
+        certificate.white_reason = "the 99th percentile of Y";
+    }
+    if (request.max_delta_e)
+        out->compare_everywhere(job, load_text, subject);
+    else
+        out->compare_patches(job);
+    subject.white_luminance = certificate.white_luminance;
+    subject.tolerance = request.max_delta_e;
+    OSIO_TRY(out->m_budget, ErrorBudget::create(std::move(subject)));
+    return out;
+}
+
+void Certifier::compare_everywhere(const CollapseJob& job, const TextLoader& load_text,
+                                   BudgetSubject& subject) {
+    const Part& part = job.part();
+    for (const SpectralSet& set : part.layout.sets)
+        if (set.name() == job.plan.request.set)
+            m_alternatives = basis_alternatives(job.plan, set, part.metadata, load_text);
+    for (const CollapsePlan& plan : m_alternatives) {
+        m_certificate.alternatives.emplace_back(basis_name(plan.basis.basis));
+        subject.alternatives.push_back(&plan);
+    }
+    m_certificate.indicator_over = "every pixel";
+}
+
+void Certifier::compare_patches(const CollapseJob& job) {
+    for (const BasisSpread& spread : basis_spread(job.plan)) {
+        if (!is_alternative(job.plan, spread.basis))
+            continue;
+        m_certificate.alternatives.emplace_back(basis_name(spread.basis));
+        m_patch_indicator = std::max(m_patch_indicator, spread.residual.max);
+    }
+    m_certificate.indicator_over = "the 24 patches of the ColorChecker";
+}
+
+Certificate Certifier::certificate(std::string output, const CollapseCounts& counts) const {
+    Certificate out = m_certificate;
+    out.output = std::move(output);
+    out.budget = m_budget->result();
+    if (!out.max_delta_e) {
+        out.budget.indicator = m_patch_indicator;
+        out.budget.with_indicator = out.budget.total.delta_e_2000 + m_patch_indicator;
+    }
+    out.counts = counts;
+    return out;
+}
+
+Result<Certificate> certify_for_host(const CollapseJob& job, const TextLoader& load_text, Runner& runner) {
+    OSIO_TRY(const auto certifier, Certifier::create(job, StoredDepth::Float, load_text, runner, {}));
+    OSIO_TRY(const auto source, open_source({&job, 1}, certifier->alternatives()));
+    NoSink nothing;
+    const CollapseTarget target{job.plan, nothing, &certifier->witness()};
+    OSIO_TRY(const auto counts,
+             collapse_stream(*source, {&target, 1}, job.alpha.has_value(), all_rows(job), runner, {}));
+    Certificate out = certifier->certificate({}, counts.front());
+    if (!out.holds())
+        return fail(ErrorCode::NotCertified, out.failure(job), job.file->path());
+    return out;
+}
+
+}  // namespace osio::image
