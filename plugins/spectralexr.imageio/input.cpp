@@ -7,6 +7,7 @@
 #include <formats/image/open_image.h>
 
 #include <osio/collapse/selection.h>
+#include <osio/collapse/text_loader.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -102,10 +103,12 @@ Result<void> SpectralExrInput::load(const std::string& name, const OIIO::ImageSp
     OSIO_TRY(const OpenRequest open, resolve_open(name, config));
     if (!open.request.to)
         OSIO_CHECK_OK(check_raw_request(open.request));
-    OSIO_TRY(auto file, image::open_image(open.path));
+    const TextLoader load_text = files::text_loader({});
+    OSIO_TRY(const OpenWords words, load_open_words(open.request, load_text));
+    OSIO_TRY(auto file, image::open_image(open.path, words));
     if (!open.request.to)
         return add_raw_subimages(file, open.request);
-    OSIO_TRY(auto jobs, image::prepare_collapses(file, open.request, files::text_loader({})));
+    OSIO_TRY(auto jobs, image::prepare_collapses(file, open.request, load_text));
     for (image::CollapseJob& job : jobs) {
         OSIO_TRY(auto subimage, make_collapsed_subimage(std::move(job), static_cast<int>(jobs.size())));
         m_subimages.push_back(std::move(subimage));

@@ -20,6 +20,7 @@ enum class ErrorCode {
     BandsOutsideObserver,  ///< no band near 360-830 nm
     InvalidGrid,           ///< wavelengths that define no curve
     Unsupported,           ///< deep or sub-sampled bands
+    Contradiction,         ///< words say of the file what its names or its header deny
     NotSpectral,           ///< a sound file without spectral bands
     Damaged,               ///< a file that contradicts itself or is cut short
     Io,                    ///< the operating system refused
