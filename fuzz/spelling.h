@@ -3,8 +3,8 @@
 
 #include <osio/collapse/request.h>
 
-#include <fuzz/target.h>
 #include <algorithm>
+#include <fuzz/target.h>
 #include <string>
 
 namespace osio::fuzz {
@@ -13,8 +13,8 @@ namespace osio::fuzz {
 /// marks between words cannot be spelt in a query, and are only spelt.
 inline void check_spelling(const CollapseRequest& request) {
     const std::string spelt = recipe_text(request);
-    for (const std::string* value :
-         {&request.illuminant, &request.observer, &request.part, &request.set, &request.white})
+    for (const std::string* value : {&request.illuminant, &request.observer, &request.part, &request.set,
+                                     &request.white, &request.wavelengths})
         if (value->find_first_of("&=") != std::string::npos)
             return;
     CollapseRequest again;

@@ -24,7 +24,7 @@ bool inside(const Range& range, double nm) {
 Imf::Header attributes_of(const image::Part& part) {
     Imf::Header out(part.header.displayWindow(), part.header.dataWindow());
     for (auto a = part.header.begin(); a != part.header.end(); ++a)
-        if (!exr::is_structural(a.name()))
+        if (!exr::is_structural(a.name()) && !names_a_band(part.layout.dialect, a.name()))
             out.insert(a.name(), a.attribute());
     out.compression() = Imf::ZIP_COMPRESSION;
     return out;
@@ -94,7 +94,7 @@ std::string names_text(const std::vector<std::string>& names) {
 
 Result<Choice> choose(const Request& request, bool everything) {
     Choice out;
-    OSIO_TRY(out.image, image::open_image(request.input));
+    OSIO_TRY(out.image, image::open_image(request.input, request.words));
     CollapseRequest words;
     words.part = request.part;
     words.set = request.set;

@@ -6,6 +6,7 @@
 #include <osio/base/result.h>
 #include <osio/collapse/band_view.h>
 #include <osio/collapse/stream.h>
+#include <osio/layout/open_words.h>
 
 #include <cstdint>
 #include <optional>
@@ -29,6 +30,7 @@ struct Range {
 struct Request {
     std::string input;
     std::string output;                          ///< its ending says the format: .exr, .spexr, .hdr
+    OpenWords words;                             ///< what the user says of the input
     std::string part;                            ///< number from 0, or name
     std::string set;                             ///< "T", "left.S0", ...
     std::optional<Range> bands;                  ///< bands outside are left out

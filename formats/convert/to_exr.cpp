@@ -57,10 +57,10 @@ class Packing final : public BlockVisitor {
 Result<void> write_exr(const Request& request, const Choice& choice, Runner& runner, const Progress& progress,
                        Outcome& outcome) {
     const image::Part& part = choice.part();
+    const std::vector<std::string> all = written_names(part.layout);
     std::vector<std::string> names;
     for (const std::size_t channel : choice.channels)
-        names.push_back(part.channels[channel].name);
-    names = layout_names(names);
+        names.push_back(all[channel]);
     std::vector<exr::OutputChannel> channels;
     bool rounded = false;
     for (std::size_t c = 0; c < names.size(); ++c) {

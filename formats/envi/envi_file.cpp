@@ -136,6 +136,7 @@ image::Part understand(const EnviHeader& header) {
     for (const std::string& name : names)
         part.channels.push_back({name, SampleType::Float, false});
     part.layout = parse_channel_layout(names, DecimalMark::Comma);
+    part.layout.dialect = {};  // the names are ours
     part.layout.warnings.insert(part.layout.warnings.begin(), header.warnings.begin(), header.warnings.end());
     if (may_round(header.type))
         part.layout.warnings.push_back("numbers are " + std::string(data_type_name(header.type)) +
@@ -158,10 +159,10 @@ std::vector<std::string> data_files_of(const std::string& header) {
     return out;
 }
 
-Result<std::shared_ptr<const EnviFile>> EnviFile::open(const std::string& path) {
+Result<std::shared_ptr<const EnviFile>> EnviFile::open(const std::string& path, const OpenWords& words) {
     const std::string header_path = find_header(path).value_or(path);
     OSIO_TRY(const std::string text, files::read_text(header_path));
-    auto header = parse_header(text);
+    auto header = parse_header(text, words);
     if (!header)
         return fail_within(header_path, header.error());
     auto data_path = choose_data(header_path, *header);

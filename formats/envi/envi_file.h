@@ -23,8 +23,9 @@ class EnviFile final : public image::SpectralImage, public std::enable_shared_fr
   public:
     /// Opens by the header's path or the data file's. Io where the system refuses; NotSpectral where there
     /// is no ENVI header; Damaged where there is no data file or it is shorter than the header promises;
-    /// the refusals of parse_header().
-    [[nodiscard]] static Result<std::shared_ptr<const EnviFile>> open(const std::string& path);
+    /// the refusals of parse_header(), with the user's words.
+    [[nodiscard]] static Result<std::shared_ptr<const EnviFile>> open(const std::string& path,
+                                                                      const OpenWords& words = {});
 
     [[nodiscard]] std::string_view format() const override { return "ENVI"; }
 

@@ -210,12 +210,12 @@ std::optional<Interleave> find_interleave(std::string_view name) {
     return std::nullopt;
 }
 
-Result<EnviHeader> parse_header(std::string_view text) {
+Result<EnviHeader> parse_header(std::string_view text, const OpenWords& words) {
     EnviHeader out;
     OSIO_TRY(out.fields, parse_fields(text));
     out.warnings = out.fields.warnings;
     OSIO_CHECK_OK(Structure(out).read());
-    OSIO_CHECK_OK(read_spectral_keys(out));
+    OSIO_CHECK_OK(read_spectral_keys(out, words));
     return out;
 }
 

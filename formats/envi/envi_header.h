@@ -4,7 +4,7 @@
 #include <formats/envi/header_fields.h>
 
 #include <osio/base/result.h>
-#include <osio/layout/channel_layout.h>
+#include <osio/layout/open_words.h>
 
 #include <cstdint>
 #include <optional>
@@ -84,7 +84,11 @@ struct EnviHeader {
 /// where it is no ENVI header; Damaged where it lacks samples, lines, bands, data type or interleave, a number
 /// is none, a list has not one item a band, or sizes exceed formats/image/limits.h; Unsupported for complex
 /// numbers, compressed data and spectral libraries.
-[[nodiscard]] Result<EnviHeader> parse_header(std::string_view text);
+///
+/// A map of wavelengths among the user's words takes the place of `wavelength` and `fwhm`: its steps are for all bands
+/// in the file's order, a table knows them as `band.N`. Contradiction where it does not fit, or where `quantity` is
+/// not what the header says.
+[[nodiscard]] Result<EnviHeader> parse_header(std::string_view text, const OpenWords& words = {});
 
 /// True for keys whose meaning EnviHeader holds, which are therefore no metadata.
 [[nodiscard]] bool is_structural(std::string_view key);

@@ -2,7 +2,7 @@
 #include <formats/envi/spectral_keys.h>
 
 #include <osio/base/text.h>
-#include <osio/layout/spectral_metadata.h>
+#include <osio/layout/part_layout.h>
 #include <osio/spectra/wavelength.h>
 
 #include <algorithm>
@@ -146,6 +146,19 @@ Result<void> read_wavelengths(EnviHeader& header) {
     return {};
 }
 
+/// The map's wavelengths in the place of the header's.
+Result<void> map_wavelengths(EnviHeader& header, const BandMap& map) {
+    std::vector<std::string> names;
+    for (std::uint64_t band = 1; band <= header.bands; ++band)
+        names.push_back("band." + std::to_string(band));
+    OSIO_TRY(const auto places, map_bands(map, names));
+    for (const auto& place : places) {
+        header.wavelengths_nm.push_back(place ? place->wavelength_nm : 0);
+        header.fwhm_nm.push_back(place ? place->fwhm_nm.value_or(0) : 0);
+    }
+    return {};
+}
+
 Result<void> read_bad_bands(EnviHeader& header) {
     const Field* const field = find_spelt(header, "bbl");
     if (field == nullptr)
@@ -175,9 +188,9 @@ void read_units(const Field& field, EnviHeader& header) {
                                   std::string(kWrittenEmissiveUnits) + " per nm");
 }
 
-void read_quantity(EnviHeader& header) {
+Result<void> read_quantity(EnviHeader& header, std::optional<Quantity> word) {
     if (header.fields.find("reflectance scale factor") != nullptr)
-        return;
+        return check_quantity(word, header.quantity, "the header has a \"reflectance scale factor\"");
     for (const std::string_view key : kUnitKeys) {
         const Field* const field = header.fields.find(key);
         const std::string text = field == nullptr ? std::string() : to_lower(field->value);
@@ -188,11 +201,12 @@ void read_quantity(EnviHeader& header) {
         header.quantity = radiance ? Quantity::Radiance : Quantity::Reflectance;
         if (radiance)
             read_units(*field, header);
-        return;
+        return check_quantity(word, header.quantity,
+                              "the header says \"" + field->label + " = " +
+                                  std::string(trim(field->value)).substr(0, 60) + "\"");
     }
-    header.warnings.emplace_back(
-        "does not say whether its numbers are reflectance or radiance: taken as reflectance; a line "
-        "\"data units = Radiance\" in the header makes them radiance");
+    header.quantity = quantity_of(assumed_family(word, header.warnings));
+    return {};
 }
 
 }  // namespace
@@ -202,11 +216,10 @@ Result<std::vector<double>> numbers_by_band(const EnviHeader& header, std::strin
     return field == nullptr ? std::vector<double>() : numbers_of(header, *field);
 }
 
-Result<void> read_spectral_keys(EnviHeader& header) {
-    OSIO_CHECK_OK(read_wavelengths(header));
+Result<void> read_spectral_keys(EnviHeader& header, const OpenWords& words) {
+    OSIO_CHECK_OK(words.wavelengths ? map_wavelengths(header, *words.wavelengths) : read_wavelengths(header));
     OSIO_CHECK_OK(read_bad_bands(header));
-    read_quantity(header);
-    return {};
+    return read_quantity(header, words.quantity);
 }
 
 }  // namespace osio::envi

@@ -5,9 +5,9 @@
 #include <formats/exr/exr_file.h>
 #include <formats/exr/header_bytes.h>
 #include <formats/exr/limits.h>
+#include <formats/exr/part_bands.h>
 
 #include <osio/base/text.h>
-#include <osio/layout/dialect.h>
 
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfMultiPartInputFile.h>
@@ -89,12 +89,7 @@ std::vector<image::Channel> channels_of(const Imf::Header& header) {
     return out;
 }
 
-void warn_of_dialect(image::Part& part) {
-    const auto dialect = recognise_dialect(part.layout.channel_names, part.summary().attribute_names);
-    if (dialect)
-        part.layout.warnings.push_back("found " + *dialect + ": a dialect that is not read yet");
-}
-
+/// A part's header but for its bands.
 Result<image::Part> understand(const Imf::Header& header, std::uint64_t file_bytes) {
     image::Part part;
     part.header = header;
@@ -112,13 +107,6 @@ Result<image::Part> understand(const Imf::Header& header, std::uint64_t file_byt
                                             " channels, more than the limit of " +
                                             std::to_string(image::kMostChannels));
     OSIO_CHECK_OK(check_limits(part, file_bytes));
-    std::vector<std::string> names;
-    for (const image::Channel& channel : part.channels)
-        names.push_back(channel.name);
-    part.layout = parse_channel_layout(names, DecimalMark::Comma);
-    if (part.layout.sets.empty())
-        warn_of_dialect(part);
-    part.metadata = read_spectral_metadata(part.layout, image::text_attributes(header));
     return part;
 }
 
@@ -129,7 +117,7 @@ ExrFile::~ExrFile() {
         exr_finish(&m_context);
 }
 
-Result<std::shared_ptr<const ExrFile>> ExrFile::open(const std::string& path) {
+Result<std::shared_ptr<const ExrFile>> ExrFile::open(const std::string& path, const OpenWords& words) {
     OSIO_TRY(const std::uint64_t bytes, check_file(path));
     const std::shared_ptr<ExrFile> file(new ExrFile(path));
     OSIO_TRY(files::RawFile raw, files::RawFile::open(path));
@@ -147,7 +135,7 @@ Result<std::shared_ptr<const ExrFile>> ExrFile::open(const std::string& path) {
         return core_failure(code, path);
     if (auto result = file->check_chunks(bytes); !result)
         return fail_in(path, std::move(result).error());
-    if (auto result = file->read_headers(bytes); !result)
+    if (auto result = file->read_headers(bytes, words); !result)
         return fail_in(path, std::move(result).error());
     auto chunks = ChunkMap::load(std::move(raw), *headers, file->parts(), file->chunk_counts());
     if (!chunks)
@@ -192,14 +180,17 @@ std::vector<std::uint64_t> ExrFile::chunk_counts() const {
     return out;
 }
 
-Result<void> ExrFile::read_headers(std::uint64_t file_bytes) {
+Result<void> ExrFile::read_headers(std::uint64_t file_bytes, const OpenWords& words) {
     try {
         // 0: no threads of OpenEXR's global pool, which belongs to the host.
         const Imf::MultiPartInputFile file(path().c_str(), 0, false);
+        std::vector<image::Part> parts;
         for (int i = 0; i < file.parts(); ++i) {
-            OSIO_TRY(image::Part part, understand(file.header(i), file_bytes));
-            add(std::move(part));
+            OSIO_TRY(parts.emplace_back(), understand(file.header(i), file_bytes));
         }
+        OSIO_CHECK_OK(understand_bands(parts, words));
+        for (image::Part& part : parts)
+            add(std::move(part));
     } catch (const std::bad_alloc&) {
         return fail(ErrorCode::Io, "out of memory");
     } catch (const std::exception& error) {

@@ -4,6 +4,7 @@
 #include <formats/image/spectral_image.h>
 
 #include <osio/base/result.h>
+#include <osio/layout/open_words.h>
 
 #include <OpenEXR/ImfPixelType.h>
 #include <OpenEXR/openexr_context.h>
@@ -26,8 +27,9 @@ using image::Window;
 class ExrFile final : public image::SpectralImage, public std::enable_shared_from_this<ExrFile> {
   public:
     /// Io where the system refuses, NotSpectral where it is no OpenEXR file, Damaged where headers
-    /// contradict themselves, the file's length or our limits.
-    [[nodiscard]] static Result<std::shared_ptr<const ExrFile>> open(const std::string& path);
+    /// contradict themselves, the file's length or our limits, Contradiction where the user's words fit no part.
+    [[nodiscard]] static Result<std::shared_ptr<const ExrFile>> open(const std::string& path,
+                                                                     const OpenWords& words = {});
 
     ~ExrFile() override;
 
@@ -47,7 +49,7 @@ class ExrFile final : public image::SpectralImage, public std::enable_shared_fro
     explicit ExrFile(std::string path) : SpectralImage(std::move(path)) {}
 
     [[nodiscard]] Result<void> check_chunks(std::uint64_t file_bytes) const;
-    [[nodiscard]] Result<void> read_headers(std::uint64_t file_bytes);
+    [[nodiscard]] Result<void> read_headers(std::uint64_t file_bytes, const OpenWords& words);
     [[nodiscard]] std::vector<std::uint64_t> chunk_counts() const;
 
     exr_context_t m_context = nullptr;

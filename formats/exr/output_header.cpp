@@ -56,7 +56,8 @@ Imf::Header collapsed_header(const image::CollapseJob& job) {
     const CollapsePlan& plan = job.plan;
     Imf::Header out(part.header.displayWindow(), part.header.dataWindow());
     for (auto a = part.header.begin(); a != part.header.end(); ++a)
-        if (!is_structural(a.name()) && !describes_bands(a.name()) && !is_replaced(a.name()))
+        if (!is_structural(a.name()) && !describes_bands(a.name()) && !is_replaced(a.name()) &&
+            !names_a_band(part.layout.dialect, a.name()))
             out.insert(a.name(), a.attribute());
     const OutputSpace& space = plan.space;
     if (has_primaries(space.kind) && !space.transform)

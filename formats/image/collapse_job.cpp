@@ -3,6 +3,7 @@
 #include <formats/image/open_image.h>
 
 #include <osio/collapse/selection.h>
+#include <osio/collapse/text_loader.h>
 
 #include <algorithm>
 
@@ -48,7 +49,8 @@ Result<std::unique_ptr<BlockSource>> open_source(std::span<const CollapseJob> jo
 
 Result<CollapseJob> open_collapse(const std::string& path, const CollapseRequest& request,
                                   const TextLoader& load_text) {
-    OSIO_TRY(auto file, open_image(path));
+    OSIO_TRY(const OpenWords words, load_open_words(request, load_text));
+    OSIO_TRY(auto file, open_image(path, words));
     return prepare_collapse(std::move(file), request, load_text);
 }
 
@@ -71,7 +73,8 @@ Result<CollapseJob> prepare_collapse(std::shared_ptr<const SpectralImage> file,
 
 Result<std::vector<CollapseJob>> open_collapses(const std::string& path, const CollapseRequest& request,
                                                 const TextLoader& load_text) {
-    OSIO_TRY(const std::shared_ptr<const SpectralImage> file, open_image(path));
+    OSIO_TRY(const OpenWords words, load_open_words(request, load_text));
+    OSIO_TRY(const std::shared_ptr<const SpectralImage> file, open_image(path, words));
     return prepare_collapses(file, request, load_text);
 }
 

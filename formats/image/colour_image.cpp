@@ -5,6 +5,7 @@
 #include <formats/image/open_image.h>
 
 #include <osio/base/text.h>
+#include <osio/collapse/text_loader.h>
 
 #include <OpenEXR/ImfChromaticitiesAttribute.h>
 #include <OpenEXR/ImfStringAttribute.h>
@@ -122,21 +123,8 @@ Result<ColourImage> open_colour(std::shared_ptr<const SpectralImage> file, const
     return fail(ErrorCode::NotSpectral, "holds neither bands nor channels R, G, B or X, Y, Z", path);
 }
 
-}  // namespace
-
-Result<std::unique_ptr<BlockSource>> ColourImage::open_source() const {
-    return file->make_block_source(part_index, planes, Grain::Block);
-}
-
-Result<ColourImage> open_colour_image(const std::string& path, const CollapseRequest& request,
-                                      const TextLoader& load_text) {
-    OSIO_TRY(const auto file, open_image(path));
-    const bool spectral = std::any_of(file->parts().begin(), file->parts().end(), [](const Part& part) {
-        return std::any_of(part.layout.sets.begin(), part.layout.sets.end(),
-                           [](const SpectralSet& set) { return !set.bands.empty(); });
-    });
-    if (!spectral)
-        return open_colour(file, request);
+Result<ColourImage> open_spectral(const std::shared_ptr<const SpectralImage>& file,
+                                  const CollapseRequest& request, const TextLoader& load_text) {
     CollapseRequest to_xyz = request;
     OSIO_TRY(to_xyz.to, find_output_space("lab"));  // its weights are those of X, Y, Z
     OSIO_TRY(const CollapseJob job, prepare_collapse(file, to_xyz, load_text));
@@ -151,6 +139,36 @@ Result<ColourImage> open_colour_image(const std::string& path, const CollapseReq
     out.meaning = "set " + job.plan.request.set +
                   (job.plan.illuminant ? " under " + job.plan.illuminant->id : std::string(", radiance"));
     out.warnings = job.warnings;
+    return out;
+}
+
+}  // namespace
+
+Result<std::unique_ptr<BlockSource>> ColourImage::open_source() const {
+    return file->make_block_source(part_index, planes, Grain::Block);
+}
+
+Result<ColourImage> open_colour_image(const std::string& path, const CollapseRequest& request,
+                                      const TextLoader& load_text) {
+    OSIO_TRY(const OpenWords words, load_open_words(request, load_text));
+    auto file = open_image(path, words);
+    std::optional<Error> denied;
+    if (!file && file.error().code == ErrorCode::Contradiction) {
+        denied = file.error();
+        file = open_image(path);
+    }
+    if (!file)
+        return tl::unexpected(std::move(file).error());
+    const auto& parts = (*file)->parts();
+    const bool spectral = std::any_of(parts.begin(), parts.end(), [](const Part& part) {
+        return std::any_of(part.layout.sets.begin(), part.layout.sets.end(),
+                           [](const SpectralSet& set) { return !set.bands.empty(); });
+    });
+    OSIO_TRY(ColourImage out,
+             spectral ? open_spectral(*file, request, load_text) : open_colour(*file, request));
+    out.denied = std::move(denied);
+    if (out.denied)
+        out.warnings.push_back(out.denied->what + ": read without the word");
     return out;
 }
 

@@ -6,6 +6,7 @@
 #include <osio/collapse/difference_stream.h>
 #include <osio/collapse/plan.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct ColourImage {
     bool spectral = false;
     std::string meaning;                ///< how it was understood, for people
     std::vector<std::string> warnings;  ///< what was assumed
+    std::optional<Error> denied;        ///< why it was read without what the request says of files
 
     [[nodiscard]] const Part& part() const { return file->parts()[part_index]; }
 
@@ -30,7 +32,8 @@ struct ColourImage {
 /// Without bands, R, G, B are those of `oiio:ColorSpace` where that is a space we know (its curve is
 /// undone), else of `chromaticities`, else linear Rec.709, with a warning; X, Y, Z are themselves. Lab
 /// then refers to the space's white, to D65 where only X, Y, Z are known. NotSpectral where there is
-/// neither; the refusals of a plan.
+/// neither; the refusals of a plan. Where the request's `wavelengths` or `quantity` do not fit, the image is read without
+/// them, with a warning: of two images they may be meant for the other.
 [[nodiscard]] Result<ColourImage> open_colour_image(const std::string& path, const CollapseRequest& request,
                                                     const TextLoader& load_text);
 

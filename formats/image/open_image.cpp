@@ -7,10 +7,10 @@
 
 namespace osio::image {
 
-Result<std::shared_ptr<const SpectralImage>> open_image(const std::string& path) {
+Result<std::shared_ptr<const SpectralImage>> open_image(const std::string& path, const OpenWords& words) {
     if (!exr::starts_like_exr(path) && envi::find_header(path))
-        return envi::EnviFile::open(path);
-    auto file = exr::ExrFile::open(path);
+        return envi::EnviFile::open(path, words);
+    auto file = exr::ExrFile::open(path, words);
     if (!file && file.error().code == ErrorCode::NotSpectral)
         return fail(ErrorCode::NotSpectral, file.error().what + ", and there is no ENVI header", path);
     return file;

@@ -6,9 +6,7 @@
 namespace osio::image {
 
 PartSummary Part::summary() const {
-    PartSummary out{name, &layout, {}, deep, {}};
-    for (auto a = header.begin(); a != header.end(); ++a)
-        out.attribute_names.emplace_back(a.name());
+    PartSummary out{name, &layout, deep, {}};
     for (const Channel& channel : channels)
         out.subsampled.push_back(channel.subsampled);
     return out;

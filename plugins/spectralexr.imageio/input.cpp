@@ -8,6 +8,7 @@
 #include <formats/image/open_image.h>
 
 #include <osio/collapse/selection.h>
+#include <osio/collapse/text_loader.h>
 
 #include <cstdio>
 #include <cstdlib>
@@ -105,12 +106,14 @@ Result<void> SpectralExrInput::load(const std::string& name, const OIIO::ImageSp
     OSIO_TRY(const OpenRequest open, resolve_open(name, config));
     if (!open.request.to)
         OSIO_CHECK_OK(check_raw_request(open.request));
-    OSIO_TRY(auto file, image::open_image(open.path));
+    const TextLoader load_text = files::text_loader({});
+    OSIO_TRY(const OpenWords words, load_open_words(open.request, load_text));
+    OSIO_TRY(auto file, image::open_image(open.path, words));
     if (!open.request.to)
         return add_raw_subimages(file, open.request);
     if (open.request.white_luminance && !open.request.max_delta_e)
         return fail(ErrorCode::Usage, "white-luminance is for max-delta-e");
-    OSIO_TRY(auto jobs, image::prepare_collapses(file, open.request, files::text_loader({})));
+    OSIO_TRY(auto jobs, image::prepare_collapses(file, open.request, load_text));
     for (image::CollapseJob& job : jobs) {
         OSIO_TRY(std::string certificate, certify(job));
         OSIO_TRY(auto subimage, make_collapsed_subimage(std::move(job), static_cast<int>(jobs.size()),

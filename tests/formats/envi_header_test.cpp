@@ -134,7 +134,34 @@ TEST(EnviHeader, WhatTheNumbersAreIsReadOrAssumedAloud) {
     EXPECT_FALSE(says(parsed("description = {surface Reflectance}\n"), "taken as reflectance"));
     EXPECT_EQ(parsed("description = {reflectance from radiance}\n").quantity, Quantity::Reflectance);
     EXPECT_TRUE(says(parsed("description = {reflectance from radiance}\n"), "taken as reflectance"));
-    EXPECT_TRUE(says(parsed(""), "data units = Radiance"));
+    EXPECT_TRUE(says(parsed(""), "quantity=radiance makes them radiance"));
+}
+
+TEST(EnviHeader, TheUsersWordsSayWhatTheHeaderDoesNot) {
+    const auto bands = parse_header(header_with(""))->bands;
+    const std::string range = "500:1:" + std::to_string(499 + bands);
+    const OpenWords words{parse_band_steps(range).value(), Quantity::Radiance};
+    const auto header = parse_header(header_with(""), words);
+    ASSERT_TRUE(header) << header.error().text();
+    EXPECT_EQ(header->wavelengths_nm, words.wavelengths->steps_nm);
+    EXPECT_EQ(header->quantity, Quantity::Radiance);
+    EXPECT_FALSE(says(*header, "taken as"));
+    const OpenWords table{parse_band_table("band.2,600,20", "bands.csv").value(), std::nullopt};
+    const auto one = parse_header(header_with("fwhm = {1}\n"), table);
+    ASSERT_TRUE(one) << one.error().text();
+    EXPECT_EQ(one->wavelengths_nm.at(0), 0);
+    EXPECT_EQ(one->wavelengths_nm.at(1), 600);
+    EXPECT_EQ(one->fwhm_nm.at(1), 20);
+    for (const std::string lines : {"data units = Reflectance\n", "reflectance scale factor = 10\n"}) {
+        const auto refused = parse_header(header_with(lines), words);
+        ASSERT_FALSE(refused);
+        EXPECT_EQ(refused.error().code, ErrorCode::Contradiction);
+        EXPECT_NE(refused.error().text().find("quantity=radiance does not fit: the header"),
+                  std::string::npos);
+    }
+    const auto few = parse_header(header_with(""), {parse_band_steps("500:1:500").value(), std::nullopt});
+    ASSERT_FALSE(few);
+    EXPECT_EQ(few.error().code, ErrorCode::Contradiction);
 }
 
 TEST(EnviHeader, RefusalsSayWhatWasFoundAndWhatWasExpected) {

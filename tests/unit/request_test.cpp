@@ -21,6 +21,7 @@ TEST(Request, ARecipeReadsBackAsTheSameRequest) {
           "to=xyz_d65&names=xyz&set=left.T&part=beauty&extrapolate=zero&observer=CIE1964&illuminant=FL11",
           "to=luminance&scale=photometric&basis=bins-corrected&filter=a.csv&filter=b.csv,c.csv&filter-"
           "normalise=1",
+          "to=xyz&wavelengths=400:10:700&quantity=radiance", "to=raw&wavelengths=bands.csv",
           "to=display&display=panel.csv&illuminant=D(6200)", "to=raw&names=layout", "to=lab&illuminant=A",
           "to=xyY", "to=acescg&illuminant=A&adapt=CAT16",
           "to=rgb:0.64,0.33,0.3,0.6,0.15,0.06,0.3127,0.329&illuminant=A"}) {
@@ -82,12 +83,13 @@ class Parts {
     Parts& add(const std::string& name, const std::vector<std::string>& channels) {
         m_layouts.push_back(
             std::make_unique<ChannelLayout>(parse_channel_layout(channels, DecimalMark::Comma)));
-        m_parts.push_back(
-            {name, m_layouts.back().get(), {}, false, std::vector<bool>(channels.size(), false)});
+        m_parts.push_back({name, m_layouts.back().get(), false, std::vector<bool>(channels.size(), false)});
         return *this;
     }
 
     PartSummary& back() { return m_parts.back(); }
+
+    ChannelLayout& back_layout() { return *m_layouts.back(); }
 
     std::string choose(const std::string& request) {
         const auto selection = select_set(m_parts, request_of(request));
@@ -149,10 +151,13 @@ TEST(Selection, AFileWithoutBandsIsNotSpectralAndNamesItsDialect) {
     plain.add("", {"R", "G", "B"});
     EXPECT_EQ(plain.code("to=xyz"), ErrorCode::NotSpectral);
     EXPECT_NE(plain.choose("to=xyz").find("no spectral band among 3 channels (R, G, B)"), std::string::npos);
-    Parts mitsuba;
-    mitsuba.add("", {"395.00-405.00nm", "405.00-415.00nm"});
-    EXPECT_EQ(mitsuba.code("to=xyz"), ErrorCode::NotSpectral);
-    EXPECT_NE(mitsuba.choose("to=xyz").find("Mitsuba 0.x"), std::string::npos);
+    Parts numbered;
+    numbered.add("", {"0", "1"}).back_layout().dialect = {"OpenCV's numbered channels", "names 0 to 1", {}};
+    EXPECT_EQ(numbered.code("to=xyz"), ErrorCode::NotSpectral);
+    EXPECT_NE(numbered.choose("to=xyz").find(
+                  "OpenCV's numbered channels (names 0 to 1), which say no wavelengths; give them with "
+                  "wavelengths=400:10:700"),
+              std::string::npos);
 }
 
 TEST(Selection, DeepAndSubsampledBandsAreRefused) {

@@ -2,6 +2,7 @@
 #include <tools/osiotool/commands.h>
 #include <tools/osiotool/progress_bar.h>
 #include <tools/osiotool/report.h>
+#include <tools/osiotool/request_words.h>
 #include <tools/osiotool/thread_runner.h>
 
 #include <formats/exr/exr_writer.h>
@@ -21,6 +22,7 @@ Result<convert::Request> request_of(const ConvertOptions& options) {
     convert::Request out;
     out.input = options.input;
     out.output = options.output;
+    OSIO_TRY(out.words, open_words_of(options.request));
     out.part = options.part;
     out.set = options.set;
     out.compression = options.compression;

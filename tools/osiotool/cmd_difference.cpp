@@ -54,6 +54,8 @@ Result<ExitCode> run_difference(const DifferenceOptions& options) {
     const TextLoader load_text = files::text_loader({});
     OSIO_TRY(const image::ColourImage a, image::open_colour_image(options.a, request, load_text));
     OSIO_TRY(const image::ColourImage b, image::open_colour_image(options.b, request, load_text));
+    if (a.denied && b.denied)
+        return tl::unexpected(*a.denied);
     if (!a.spectral && !b.spectral && !options.request.empty())
         for (const auto& [key, value] : options.request)
             if (key != "part")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tools/osiotool/commands.h>
+#include <tools/osiotool/request_words.h>
 #include <tools/osiotool/spectrum_plot.h>
 
 #include <formats/files/text_file.h>
@@ -95,7 +96,8 @@ Result<ExitCode> run_spectrum(const SpectrumOptions& options) {
         return fail(ErrorCode::Usage, "\"" + options.output + "\" is neither a .csv nor a .svg");
     if (plot && options.range)
         return fail(ErrorCode::Usage, "--range is for tables; a plot always shows the range");
-    OSIO_TRY(const auto file, image::open_image(options.input));
+    OSIO_TRY(const OpenWords words, open_words_of(options.request));
+    OSIO_TRY(const auto file, image::open_image(options.input, words));
     OSIO_TRY(const Selection selection, file->select(request));
     const image::Part& part = file->parts()[selection.part];
     const SpectralSet& set = part.layout.sets[selection.set];

@@ -20,6 +20,7 @@ using RequestWords = std::vector<std::pair<std::string, std::string>>;
 
 struct InfoOptions {
     std::string input;
+    RequestWords request;  ///< wavelengths and quantity
     bool json = false;
 };
 
@@ -47,6 +48,7 @@ struct CollapseOptions {
 struct ConvertOptions {
     std::string input;
     std::string output;
+    RequestWords request;  ///< wavelengths and quantity
     std::string part;
     std::string set;
     std::string bands;        ///< "400-700nm"; empty: all
@@ -106,6 +108,7 @@ struct WeightsOptions {
 
 struct SpectrumOptions {
     std::string input;
+    RequestWords request;            ///< wavelengths and quantity
     std::vector<std::string> place;  ///< X and Y, or WxH+X+Y; empty: all pixels
     std::string part;
     std::string set;

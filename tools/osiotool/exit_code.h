@@ -26,7 +26,8 @@ enum ExitCode : int {
     case ErrorCode::UnexpectedIlluminant:
     case ErrorCode::BandsOutsideObserver:
     case ErrorCode::InvalidGrid:
-    case ErrorCode::Unsupported: return kDoesNotFit;
+    case ErrorCode::Unsupported:
+    case ErrorCode::Contradiction: return kDoesNotFit;
     case ErrorCode::NotCertified: return kNotCertified;
     case ErrorCode::NotSpectral:
     case ErrorCode::Damaged: return kBadInput;

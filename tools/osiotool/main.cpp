@@ -20,12 +20,18 @@ namespace osio::tool {
 
 namespace {
 
-/// One option for each word of a request, so that the command line and queries never differ.
-void add_request_options(CLI::App& command, RequestWords& words,
-                         const std::vector<std::string>& without = {}) {
+using Keys = std::vector<std::string>;
+
+bool holds(const Keys& keys, const std::string& key) {
+    return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// An option for each word of a request that is wanted, so that the command line and queries never differ.
+template <class Wanted>
+void add_words(CLI::App& command, RequestWords& words, Wanted wanted) {
     for (const RequestOption& option : request_options()) {
         const std::string key(option.key);
-        if (std::find(without.begin(), without.end(), key) != without.end())
+        if (!wanted(key))
             continue;
         if (option.value.empty()) {
             command
@@ -41,6 +47,15 @@ void add_request_options(CLI::App& command, RequestWords& words,
             ->type_name(std::string(option.value))
             ->group("Colour");
     }
+}
+
+void add_request_options(CLI::App& command, RequestWords& words, const Keys& without = {}) {
+    add_words(command, words, [&without](const std::string& key) { return !holds(without, key); });
+}
+
+/// The words that say what a file holds.
+void add_open_options(CLI::App& command, RequestWords& words) {
+    add_words(command, words, [](const std::string& key) { return holds({"wavelengths", "quantity"}, key); });
 }
 
 /// A command and what runs it.
@@ -104,6 +119,7 @@ class CommandLine {
         CLI::App* const command = add("info", "what a file holds: parts, bands, units, warnings",
                                       [this] { return run_info(m_info); });
         command->add_option("file", m_info.input, "OpenEXR or ENVI file")->required();
+        add_open_options(*command, m_info.request);
         command->add_flag("--json", m_info.json, "as JSON");
     }
 
@@ -155,6 +171,7 @@ class CommandLine {
                                     const std::string& help) {
             command->add_option(name, value, help)->type_name(type);
         };
+        add_open_options(*command, m_convert.request);
         word("--part", m_convert.part, "PART", "number from 0, or name");
         word("--set", m_convert.set, "SET", "where a part holds several");
         word("--bands", m_convert.bands, "400-700nm", "bands outside are left out");
@@ -256,6 +273,7 @@ class CommandLine {
         command->add_option("place", m_spectrum.place, "X Y, or WxH+X+Y; none: all pixels")
             ->expected(0, 2)
             ->type_name("X Y|REGION");
+        add_open_options(*command, m_spectrum.request);
         command->add_option("--part", m_spectrum.part, "part of a multi-part file")->type_name("N|NAME");
         command->add_option("--set", m_spectrum.set, "which bands, where there are several sets")
             ->type_name("[ROOT.]S0..S3|T");

@@ -21,6 +21,7 @@ enum class ErrorCode {
     InvalidGrid,           ///< wavelengths that define no curve
     Unsupported,           ///< deep or sub-sampled bands
     NotCertified,          ///< the error of a result cannot be shown to be as small as was asked for
+    Contradiction,         ///< words say of the file what its names or its header deny
     NotSpectral,           ///< a sound file without spectral bands
     Damaged,               ///< a file that contradicts itself or is cut short
     Io,                    ///< the operating system refused

@@ -30,6 +30,9 @@ constexpr auto kOptions = std::to_array<RequestOption>({
     {"display", "FILE.csv", "emission curves of the display of to=display"},
     {"part", "N|NAME", "part of a multi-part file, counted from 0"},
     {"set", "[ROOT.]S0..S3|T", "which bands, where a part holds several sets"},
+    {"wavelengths", "START:STEP:END|FILE.csv",
+     "wavelengths of the channels, in nm: 400:10:700, or lines channel,nm[,fwhm]"},
+    {"quantity", "reflectance|radiance", "what the bands hold, where the file does not say"},
     {"basis", "NAME", "how bands become a spectrum (list bases); default auto"},
     {"extrapolate", "hold|zero", "the spectrum beyond the end bands; default hold"},
     {"white", "NAME|x,y", "white to adapt from; default: the light's own, D65 for radiance"},
@@ -80,6 +83,8 @@ constexpr std::array<BasisInfo, 7> kBases{{
 }};
 constexpr Words<Scale, 3> kScales{
     {{{"relative", Scale::Relative}, {"photometric", Scale::Photometric}, {"integral", Scale::Integral}}}};
+constexpr Words<Quantity, 2> kQuantities{
+    {{{"reflectance", Quantity::Reflectance}, {"radiance", Quantity::Radiance}}}};
 constexpr Words<bool, 2> kSwitch{{{{"1", true}, {"0", false}}}};
 constexpr Words<Extrapolation, 2> kExtrapolations{
     {{{"hold", Extrapolation::Hold}, {"zero", Extrapolation::Zero}}}};
@@ -188,6 +193,10 @@ Result<void> set_option(CollapseRequest& request, std::string_view key, std::str
         request.part = value;
     } else if (key == "set") {
         request.set = value;
+    } else if (key == "wavelengths") {
+        request.wavelengths = value;
+    } else if (key == "quantity") {
+        OSIO_TRY(request.quantity, kQuantities.parse(key, value));
     } else if (key == "white") {
         request.white = value;
     } else {
@@ -218,6 +227,9 @@ std::string recipe_text(const CollapseRequest& request) {
     add("display", request.display);
     add("part", request.part);
     add("set", request.set);
+    add("wavelengths", request.wavelengths);
+    if (request.quantity)
+        add("quantity", quantity_name(*request.quantity));
     add("basis", basis_name(request.basis));
     add("extrapolate", extrapolation_name(request.extrapolation));
     add("white", request.white);
@@ -273,7 +285,8 @@ std::string_view extrapolation_name(Extrapolation extrapolation) {
 }
 
 bool takes_tables(std::string_view key) {
-    constexpr std::array<std::string_view, 5> kKeys{"illuminant", "filter", "observer", "display", "white"};
+    constexpr std::array<std::string_view, 6> kKeys{"illuminant", "filter", "observer",
+                                                    "display",    "white",  "wavelengths"};
     return std::find(kKeys.begin(), kKeys.end(), key) != kKeys.end();
 }
 

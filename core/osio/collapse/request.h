@@ -4,6 +4,7 @@
 #include <osio/base/result.h>
 #include <osio/colour/adaptation.h>
 #include <osio/colour/rgb_space.h>
+#include <osio/layout/channel_layout.h>
 #include <osio/spectra/basis.h>
 
 #include <optional>
@@ -42,6 +43,8 @@ struct CollapseRequest {
     std::string display;               ///< path of a display's .csv of emission curves
     std::string part;                  ///< index or name; empty: the only one with bands
     std::string set;                   ///< "T", "S0", "left.T"; empty: the only one
+    std::string wavelengths;           ///< START:STEP:END or a .csv: see band_map.h; empty: the file's own
+    std::optional<Quantity> quantity;  ///< of bands whose file does not say what they hold
     Basis basis = Basis::Auto;
     Extrapolation extrapolation = Extrapolation::Hold;
     std::string white;  ///< an illuminant's name, a .csv or "x,y"; empty: see docs

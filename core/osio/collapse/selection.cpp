@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <osio/base/text.h>
 #include <osio/collapse/selection.h>
-#include <osio/layout/dialect.h>
 
 #include <algorithm>
 
@@ -40,20 +39,19 @@ std::string list_sets(std::span<const PartSummary> parts, std::span<const Select
 tl::unexpected<Error> not_spectral(std::span<const PartSummary> parts, std::span<const std::size_t> chosen) {
     std::vector<std::string> names;
     for (const std::size_t part : chosen) {
-        const auto& channels = parts[part].layout->channel_names;
-        if (const auto dialect = recognise_dialect(channels, parts[part].attribute_names))
-            return fail(ErrorCode::NotSpectral,
-                        "found " + *dialect +
-                            ": a dialect that is not read yet; expected channels of the spectral "
-                            "EXR layout such as T.450nm or S0.450nm");
-        names.insert(names.end(), channels.begin(), channels.end());
+        const ChannelLayout& layout = *parts[part].layout;
+        if (!layout.dialect.name.empty())
+            return fail(ErrorCode::NotSpectral, without_wavelengths(layout.dialect));
+        names.insert(names.end(), layout.channel_names.begin(), layout.channel_names.end());
     }
     const std::size_t count = names.size();
     names.resize(std::min(count, kChannelsInError));
-    return fail(ErrorCode::NotSpectral,
-                "no spectral band among " + std::to_string(count) + " channels (" + join(names, ", ") +
-                    (count > kChannelsInError ? ", ..." : "") +
-                    "); expected channels of the spectral EXR layout such as T.450nm or S0.450nm");
+    return fail(
+        ErrorCode::NotSpectral,
+        "no spectral band among " + std::to_string(count) + " channels (" + join(names, ", ") +
+            (count > kChannelsInError ? ", ..." : "") +
+            "); expected channels of the spectral EXR layout such as T.450nm or S0.450nm, of a dialect "
+            "that is read, or wavelengths= that says what they are");
 }
 
 bool stands_back(const SpectralSet& set) {

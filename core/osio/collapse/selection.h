@@ -16,7 +16,6 @@ namespace osio {
 struct PartSummary {
     std::string name;  ///< empty in most single-part files
     const ChannelLayout* layout = nullptr;
-    std::vector<std::string> attribute_names;
     bool deep = false;             ///< several samples a pixel
     std::vector<bool> subsampled;  ///< by channel: fewer samples than pixels
 };

@@ -22,6 +22,13 @@ std::string quoted_list(const std::vector<std::string>& names) {
     return out;
 }
 
+/// The name of one of the layout's bands, for people.
+const std::string& first_band(const ChannelLayout& layout) {
+    const SpectralSet& set = layout.sets.front();
+    return layout
+        .channel_names[set.bands.empty() ? set.reradiation.front().channel : set.bands.front().channel];
+}
+
 void warn_of_duplicates(const SpectralSet& set, ChannelLayout& layout) {
     for (std::size_t i = 0; i < set.bands.size();) {
         std::size_t end = i + 1;
@@ -64,12 +71,28 @@ std::string_view quantity_name(Quantity quantity) {
     return quantity == Quantity::Reflectance ? "reflectance" : "radiance";
 }
 
+bool names_a_band(const Dialect& dialect, std::string_view attribute_name) {
+    const auto& names = dialect.attributes;
+    return std::find(names.begin(), names.end(), attribute_name) != names.end();
+}
+
+std::string without_wavelengths(const Dialect& dialect) {
+    return "found " + dialect.name + " (" + dialect.evidence +
+           "), which say no wavelengths; give them with wavelengths=400:10:700, or with wavelengths=FILE.csv "
+           "of "
+           "lines channel,nm";
+}
+
 std::string SpectralSet::name() const {
     return (root.empty() ? std::string() : root + ".") + std::string(family_name(family));
 }
 
-Quantity SpectralSet::quantity() const {
+Quantity quantity_of(Family family) {
     return family == Family::T ? Quantity::Reflectance : Quantity::Radiance;
+}
+
+Quantity SpectralSet::quantity() const {
+    return quantity_of(family);
 }
 
 std::vector<double> SpectralSet::wavelengths_nm() const {
@@ -94,13 +117,14 @@ std::optional<std::size_t> ChannelLayout::alpha_of(const SpectralSet& set) const
     return find_channel("A");
 }
 
-ChannelLayout parse_channel_layout(std::span<const std::string> channel_names, DecimalMark mark) {
+ChannelLayout make_channel_layout(std::span<const std::string> channel_names,
+                                  std::span<const std::optional<ChannelName>> meanings) {
     ChannelLayout layout;
     layout.channel_names.assign(channel_names.begin(), channel_names.end());
 
     std::map<std::pair<std::string, Family>, SpectralSet> sets;
     for (std::size_t channel = 0; channel < channel_names.size(); ++channel) {
-        const auto name = parse_channel_name(channel_names[channel], mark);
+        const auto& name = meanings[channel];
         if (!name) {
             layout.others.push_back(channel);
             continue;
@@ -124,7 +148,18 @@ ChannelLayout parse_channel_layout(std::span<const std::string> channel_names, D
         warn_of_reradiation(set, layout);
         layout.sets.push_back(std::move(set));
     }
+    return layout;
+}
+
+ChannelLayout parse_channel_layout(std::span<const std::string> channel_names, DecimalMark mark) {
+    std::vector<std::optional<ChannelName>> meanings;
+    meanings.reserve(channel_names.size());
+    for (const std::string& name : channel_names)
+        meanings.push_back(parse_channel_name(name, mark));
+    ChannelLayout layout = make_channel_layout(channel_names, meanings);
     warn_of_near_misses(layout);
+    if (!layout.sets.empty())
+        layout.dialect = {std::string(kLayoutDialect), "names such as \"" + first_band(layout) + "\"", {}};
     return layout;
 }
 

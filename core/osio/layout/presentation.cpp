@@ -41,6 +41,17 @@ std::string take_name(const ChannelName& band, DecimalMark mark, std::set<std::s
     return name;
 }
 
+/// Calls visit(channel, name) for every band and pair, set by set in order of wavelength.
+template <class Visit>
+void for_each_band(const ChannelLayout& layout, Visit visit) {
+    for (const SpectralSet& set : layout.sets) {
+        for (const Band& band : set.bands)
+            visit(band.channel, ChannelName{set.root, set.family, band.wavelength_nm, std::nullopt});
+        for (const Reradiation& pair : set.reradiation)
+            visit(pair.channel, ChannelName{set.root, set.family, pair.excited_nm, pair.emitted_nm});
+    }
+}
+
 }  // namespace
 
 std::vector<PresentedChannel> present_channels(const ChannelLayout& layout, BandNames names) {
@@ -48,27 +59,29 @@ std::vector<PresentedChannel> present_channels(const ChannelLayout& layout, Band
     std::set<std::string> taken;
     for (const std::size_t channel : layout.others)
         taken.insert(layout.channel_names[channel]);
-    const auto add_band = [&](std::size_t channel) {
-        const std::string& stored = layout.channel_names[channel];
-        if (names == BandNames::AsStored)
-            out.push_back({channel, stored});
-        else
-            out.push_back({channel, take_name(*parse_channel_name(stored, DecimalMark::Comma),
-                                              DecimalMark::Point, taken)});
+    const auto add_band = [&](std::size_t channel, const ChannelName& band) {
+        out.push_back({channel, names == BandNames::AsStored ? layout.channel_names[channel]
+                                                             : take_name(band, DecimalMark::Point, taken)});
     };
 
     for (const std::string_view first : kFirst)
         if (const auto channel = layout.find_channel(first))
             out.push_back({*channel, std::string(first)});
-    for (const SpectralSet& set : layout.sets) {
-        for (const Band& band : set.bands)
-            add_band(band.channel);
-        for (const Reradiation& pair : set.reradiation)
-            add_band(pair.channel);
-    }
+    for_each_band(layout, add_band);
     for (const std::size_t channel : layout.others)
         if (!comes_first(layout.channel_names[channel]))
             out.push_back({channel, layout.channel_names[channel]});
+    return out;
+}
+
+std::vector<std::string> written_names(const ChannelLayout& layout) {
+    std::vector<std::string> out(layout.channel_names);
+    std::set<std::string> taken;
+    for (const std::size_t channel : layout.others)
+        taken.insert(layout.channel_names[channel]);
+    for_each_band(layout, [&](std::size_t channel, const ChannelName& band) {
+        out[channel] = take_name(band, DecimalMark::Comma, taken);
+    });
     return out;
 }
 

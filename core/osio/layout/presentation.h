@@ -25,7 +25,12 @@ struct PresentedChannel {
 /// in order of wavelength, then all else as it was. Names are distinct where the file's are.
 [[nodiscard]] std::vector<PresentedChannel> present_channels(const ChannelLayout& layout, BandNames names);
 
-/// The names under which channels are written: bands in the layout's spelling in nanometres, others
+/// The names under which a layout's channels are written, by channel: bands in the spectral EXR layout's
+/// spelling in nanometres, whatever the file calls them, others as they are. Bands of one wavelength keep
+/// distinct names as in layout_names().
+[[nodiscard]] std::vector<std::string> written_names(const ChannelLayout& layout);
+
+/// The names under which a host's channels are written: bands in the layout's spelling in nanometres, others
 /// as they are. A name is read with a comma or a point as its decimal mark. Bands of one wavelength
 /// keep distinct names by further zeros behind the comma, which mean the same wavelength.
 [[nodiscard]] std::vector<std::string> layout_names(std::span<const std::string> names);
