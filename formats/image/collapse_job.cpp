@@ -17,8 +17,8 @@ std::vector<std::string> CollapseJob::channel_names() const {
 
 std::vector<SampleType> CollapseJob::plane_types() const {
     std::vector<SampleType> types;
-    for (const Band& band : plan.bands)
-        types.push_back(part().channels[band.channel].type);
+    for (const PlanColumn& column : plan.columns)
+        types.push_back(part().channels[column.channel].type);
     if (alpha)
         types.push_back(part().channels[*alpha].type);
     return types;
@@ -27,11 +27,11 @@ std::vector<SampleType> CollapseJob::plane_types() const {
 Result<std::unique_ptr<BlockSource>> open_source(std::span<const CollapseJob> jobs, Grain grain) {
     const CollapseJob& first = jobs.front();
     PlaneChannels planes;
-    for (std::size_t band = 0; band < first.plan.bands.size(); ++band) {
-        const bool needed = std::any_of(jobs.begin(), jobs.end(), [band](const CollapseJob& job) {
-            return job.plan.weights.needs(band);
+    for (std::size_t column = 0; column < first.plan.columns.size(); ++column) {
+        const bool needed = std::any_of(jobs.begin(), jobs.end(), [column](const CollapseJob& job) {
+            return job.plan.weights.needs(column);
         });
-        planes.push_back(needed ? std::optional(first.plan.bands[band].channel) : std::nullopt);
+        planes.push_back(needed ? std::optional(first.plan.columns[column].channel) : std::nullopt);
     }
     if (first.alpha)
         planes.emplace_back(first.alpha);

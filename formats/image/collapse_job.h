@@ -17,7 +17,7 @@ namespace osio::image {
 
 struct CollapseJob;
 
-/// The bands that any of some jobs for the same set needs, then alpha.
+/// The columns that any of some jobs for the same set needs, then alpha.
 [[nodiscard]] Result<std::unique_ptr<BlockSource>> open_source(std::span<const CollapseJob> jobs,
                                                                Grain grain = Grain::Block);
 
@@ -35,7 +35,7 @@ struct CollapseJob {
     /// Names of the result's channels, alpha last.
     [[nodiscard]] std::vector<std::string> channel_names() const;
 
-    /// The bands that the plan needs, then alpha.
+    /// The columns that the plan needs, then alpha.
     [[nodiscard]] Result<std::unique_ptr<BlockSource>> open_source(Grain grain = Grain::Block) const {
         return image::open_source({this, 1}, grain);
     }
