@@ -114,7 +114,7 @@ Result<std::unique_ptr<Certifier>> Certifier::create(const CollapseJob& job, Sto
     certificate.depth = depth;
     certificate.max_delta_e = request.max_delta_e;
     certificate.assumption = alternatives_assumption(job.plan);
-    BudgetSubject subject{job.plan, job.band_types(), depth, job.alpha.has_value()};
+    BudgetSubject subject{job.plan, job.column_types(), depth, job.alpha.has_value()};
     // What is refused is refused before the image is read for its white.
     OSIO_CHECK_OK(ErrorBudget::create(subject));
     if (request.white_luminance) {

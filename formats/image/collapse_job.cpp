@@ -16,15 +16,15 @@ std::vector<std::string> CollapseJob::channel_names() const {
     return names;
 }
 
-std::vector<SampleType> CollapseJob::band_types() const {
+std::vector<SampleType> CollapseJob::column_types() const {
     std::vector<SampleType> types;
-    for (const Band& band : plan.bands)
-        types.push_back(part().channels[band.channel].type);
+    for (const PlanColumn& column : plan.columns)
+        types.push_back(part().channels[column.channel].type);
     return types;
 }
 
 std::vector<SampleType> CollapseJob::plane_types() const {
-    std::vector<SampleType> types = band_types();
+    std::vector<SampleType> types = column_types();
     if (alpha)
         types.push_back(part().channels[*alpha].type);
     return types;
@@ -34,13 +34,13 @@ Result<std::unique_ptr<BlockSource>> open_source(std::span<const CollapseJob> jo
                                                  std::span<const CollapsePlan> beside, Grain grain) {
     const CollapseJob& first = jobs.front();
     PlaneChannels planes;
-    for (std::size_t band = 0; band < first.plan.bands.size(); ++band) {
+    for (std::size_t column = 0; column < first.plan.columns.size(); ++column) {
         const bool needed =
             std::any_of(jobs.begin(), jobs.end(),
-                        [band](const CollapseJob& job) { return job.plan.weights.needs(band); }) ||
+                        [column](const CollapseJob& job) { return job.plan.weights.needs(column); }) ||
             std::any_of(beside.begin(), beside.end(),
-                        [band](const CollapsePlan& plan) { return plan.weights.needs(band); });
-        planes.push_back(needed ? std::optional(first.plan.bands[band].channel) : std::nullopt);
+                        [column](const CollapsePlan& plan) { return plan.weights.needs(column); });
+        planes.push_back(needed ? std::optional(first.plan.columns[column].channel) : std::nullopt);
     }
     if (first.alpha)
         planes.emplace_back(first.alpha);

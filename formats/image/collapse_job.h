@@ -17,7 +17,7 @@ namespace osio::image {
 
 struct CollapseJob;
 
-/// The bands that any of some jobs for the same set needs, or of further plans for the same bands, then alpha.
+/// The columns that any of some jobs for the same set needs, or of further plans for the same bands, then alpha.
 [[nodiscard]] Result<std::unique_ptr<BlockSource>> open_source(std::span<const CollapseJob> jobs,
                                                                std::span<const CollapsePlan> beside = {},
                                                                Grain grain = Grain::Block);
@@ -36,13 +36,13 @@ struct CollapseJob {
     /// Names of the result's channels, alpha last.
     [[nodiscard]] std::vector<std::string> channel_names() const;
 
-    /// The bands that the plan needs, then alpha.
+    /// The columns that the plan needs, then alpha.
     [[nodiscard]] Result<std::unique_ptr<BlockSource>> open_source(Grain grain = Grain::Block) const {
         return image::open_source({this, 1}, {}, grain);
     }
 
-    /// How the samples of the plan's bands are stored.
-    [[nodiscard]] std::vector<SampleType> band_types() const;
+    /// How the samples of the plan's columns are stored.
+    [[nodiscard]] std::vector<SampleType> column_types() const;
 
     /// How the samples of the source's planes are stored.
     [[nodiscard]] std::vector<SampleType> plane_types() const;

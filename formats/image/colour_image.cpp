@@ -131,9 +131,9 @@ Result<ColourImage> open_spectral(const std::shared_ptr<const SpectralImage>& fi
     ColourImage out;
     out.file = file;
     out.part_index = job.part_index;
-    for (std::size_t band = 0; band < job.plan.bands.size(); ++band)
-        out.planes.push_back(job.plan.weights.needs(band) ? std::optional(job.plan.bands[band].channel)
-                                                          : std::nullopt);
+    for (std::size_t column = 0; column < job.plan.columns.size(); ++column)
+        out.planes.push_back(job.plan.weights.needs(column) ? std::optional(job.plan.columns[column].channel)
+                                                            : std::nullopt);
     out.recipe = {job.plan.weights, Transfer::Linear, job.plan.white};
     out.spectral = true;
     out.meaning = "set " + job.plan.request.set +

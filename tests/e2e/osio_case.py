@@ -52,6 +52,45 @@ def oracle_xyz(wavelengths, light=None, observer="cie1931", hold=True):
     return weights / (power @ bars[1])
 
 
+def light_table(light):
+    """(nm, power) of a light of data/, ultraviolet included, over what its table speaks of."""
+    visible = table("illuminants/cie_1nm.csv")
+    nm, power = visible["wavelength_nm"], visible[light]
+    stated = np.flatnonzero(power)
+    nm, power = nm[stated[0]:stated[-1] + 1], power[stated[0]:stated[-1] + 1]
+    below = table("illuminants/cie_uv.csv")
+    if light in below:
+        nm, power = np.append(below["wavelength_nm"], nm), np.append(below[light], power)
+    return nm, power
+
+
+def oracle_pairs(pairs, light, observer="cie1931"):
+    """3xN weights of pairs (in, out): elements of the Donaldson matrix. Each exciting band sees the mean of
+    the light under the triangle up to its neighbours, each emitting band sends out such a triangle."""
+    cmf = table(f"observers/{observer}.csv")
+    nm = cmf["wavelength_nm"]
+    bars = np.stack([cmf[c] for c in ("x_bar", "y_bar", "z_bar")])
+    light_nm, power = light_table(light)
+    fine = np.arange(150, 900, 0.01) + 0.005
+    fine_power = np.interp(fine, light_nm, power, left=0, right=0)
+    known = (fine >= light_nm[0]) & (fine <= light_nm[-1])
+
+    def triangles(axis, at):
+        ends = np.concatenate([[2 * axis[0] - axis[1]], axis, [2 * axis[-1] - axis[-2]]])
+        return np.stack([np.interp(at, ends[i:i + 3], [0, 1, 0], left=0, right=0) for i in range(len(axis))])
+
+    incoming = np.array(sorted({i for i, _ in pairs}))
+    outgoing = np.array(sorted({o for _, o in pairs}))
+    weight = triangles(incoming, fine) * known
+    mean = (weight @ fine_power) / np.maximum(weight.sum(axis=1), 1e-300)
+    mean[(incoming < light_nm[0]) | (incoming > light_nm[-1])] = 0
+    seen = bars @ triangles(outgoing, nm).T
+    k = 1 / (np.interp(nm, light_nm, power, left=0, right=0) @ bars[1])
+    of_in = {nm: i for i, nm in enumerate(incoming)}
+    of_out = {nm: i for i, nm in enumerate(outgoing)}
+    return np.stack([k * mean[of_in[i]] * seen[:, of_out[o]] for i, o in pairs], axis=1)
+
+
 class OsioCase(unittest.TestCase):
     """A test in a folder of its own."""
 

@@ -304,12 +304,6 @@ class Collapse(OsioCase):
         _, theirs = self.collapse("--to", "xyz", "--illuminant", "E")
         self.assertTrue(np.array_equal(mine, theirs))
 
-    def test_fluorescence_is_a_plain_warning(self):
-        self.write_exr("f.exr", dict(self.bands(GRID), **{"T.400nm.500nm": np.ones((5, 7))}))
-        result = self.osiotool("collapse", "f.exr", "o.exr", *TO_RGB)
-        self.assertIn("warning: set T is fluorescent: its 1 reradiation channels (T.in.out) are not "
-                      "collapsed yet", result.stderr)
-
 
 class Refusals(OsioCase):
     """Exit codes, words, and nothing left behind."""

@@ -9,7 +9,7 @@ import unittest
 import numpy as np
 import OpenImageIO as oiio
 
-from osio_case import OsioCase, oracle_xyz, stack
+from osio_case import OsioCase, oracle_pairs, oracle_xyz, stack
 
 IMAGES = os.environ.get("OSIO_TEST_IMAGES", "")
 
@@ -71,9 +71,38 @@ class RealFiles(OsioCase):
         white = stack(self.channels_of(self.file("colour_D65.exr") + "?to=xyz&names=xyz"), "XYZ")[0, 0]
         np.testing.assert_allclose(white[:2] / white.sum(), [0.31272, 0.32903], atol=2e-4)
 
-    def test_a_fluorescent_sample_by_its_diagonal_with_a_warning(self):
-        said = self.check_collapse("BiSpectral.exr", 41, "D65")
-        self.assertRegex(said, "warning: set T is fluorescent: its 820 reradiation channels .* not collapsed")
+    def donaldson(self):
+        """(bands, [y, x, band], pairs, [y, x, pair]) of BiSpectral.exr by OpenImageIO's own reader."""
+        planes = self.channels_of(self.file("BiSpectral.exr"))
+        bands = [c for c in planes if wavelength_of(c) is not None]
+        pairs = [c for c in planes if re.fullmatch(r"T\.[\d,]+nm\.[\d,]+nm", c)]
+        nm = [tuple(float(n.replace(",", ".")) for n in re.findall(r"([\d,]+)nm", c)) for c in pairs]
+        return [wavelength_of(c) for c in bands], stack(planes, bands), nm, stack(planes, pairs)
+
+    def test_a_fluorescent_sample_is_the_donaldson_matrix(self):
+        bands, reflected, pairs, emitted = self.donaldson()
+        self.assertEqual((len(bands), len(pairs)), (41, 820))
+        for light in ("D65", "A", "FL11", "E"):
+            expected = reflected @ oracle_xyz(bands, light).T + emitted @ oracle_pairs(pairs, light).T
+            pixels, _, said = self.both(self.file("BiSpectral.exr"), to="xyz", illuminant=light, basis="linear")
+            self.expect(pixels, expected)
+            share = (emitted @ oracle_pairs(pairs, light).T)[..., 1] / expected[..., 1]
+            print(f"{light}: reradiation is {100 * share.min():.1f} to {100 * share.max():.1f} % of Y")
+            self.assertNotIn("fluorescent", said)
+
+    def test_its_samples_are_shares_of_a_band_and_no_densities(self):
+        # Measured on real paper: no exciting band may send out more power, or more photons, than it got.
+        bands, reflected, pairs, emitted = self.donaldson()
+        power, photons = reflected.copy(), reflected.copy()
+        for i, (into, out) in enumerate(pairs):
+            at = bands.index(into)
+            power[..., at] += emitted[..., i]
+            photons[..., at] += emitted[..., i] * out / into
+        step = bands[1] - bands[0]
+        print(f"largest share of power {power.max():.3f}, of photons {photons.max():.3f}; "
+              f"as densities per nm {(reflected + step * (power - reflected)).max():.2f}")
+        self.assertLess(photons.max(), 1)
+        self.assertGreater((reflected + step * (power - reflected)).max(), 3)
 
     def test_another_dialect_is_refused_by_name(self):
         source = self.file("mitsuba06_TestSphere.exr")

@@ -21,9 +21,9 @@ inline std::vector<float> executed(const CollapsePlan& plan, const std::vector<f
     constexpr std::size_t kPixels = 37, kAt = 18;
     std::vector<std::vector<float>> planes;
     std::vector<BandView> views;
-    for (const Band& band : plan.bands) {
+    for (const PlanColumn& column : plan.columns) {
         auto& plane = planes.emplace_back(kPixels, neighbour);
-        plane[kAt] = samples.at(band.channel);
+        plane[kAt] = samples.at(column.channel);
     }
     for (const auto& plane : planes)
         views.push_back({reinterpret_cast<const std::byte*>(plane.data()), SampleType::Float, 4});

@@ -51,8 +51,8 @@ inline std::vector<double> outputs_of(const CollapsePlan& plan, const std::vecto
     std::vector<double> out;
     for (std::size_t row = 0; row < plan.weights.rows(); ++row) {
         double sum = 0;
-        for (std::size_t band = 0; band < plan.bands.size(); ++band)
-            sum += plan.weights.at(row, band) * samples.at(plan.bands[band].channel);
+        for (std::size_t column = 0; column < plan.columns.size(); ++column)
+            sum += plan.weights.at(row, column) * samples.at(plan.columns[column].channel);
         out.push_back(sum);
     }
     return out;

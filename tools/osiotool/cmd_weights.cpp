@@ -24,14 +24,18 @@ bool goes_on(const CollapsePlan& plan) {
 
 std::string weights_csv(const image::CollapseJob& job) {
     const CollapsePlan& plan = job.plan;
-    std::string out = "nm";
+    const bool fluorescent = plan.reradiation.has_value();
+    std::string out = fluorescent ? "nm,emitted_nm" : "nm";
     for (const std::string& name : plan.weighed())
         out += "," + name;
     out += "\n";
-    for (std::size_t band = 0; band < plan.bands.size(); ++band) {
-        out += format_double(plan.bands[band].wavelength_nm);
+    for (std::size_t column = 0; column < plan.columns.size(); ++column) {
+        const PlanColumn& of = plan.columns[column];
+        out += format_double(of.wavelength_nm);
+        if (fluorescent)
+            out += "," + (of.emitted_nm ? format_double(*of.emitted_nm) : std::string());
         for (std::size_t row = 0; row < plan.weights.rows(); ++row)
-            out += "," + format_double(plan.weights.at(row, band));
+            out += "," + format_double(plan.weights.at(row, column));
         out += "\n";
     }
     return out;
@@ -59,9 +63,9 @@ Result<std::string> oiiotool_command(const image::CollapseJob& job, const std::s
                     job.file->path());
     OSIO_TRY(const host::HostModule* const module, load_host_module());
     OSIO_TRY(const auto order, module->channel_order(job.file->path(), job.part_index));
-    std::map<std::string, std::size_t> bands;
-    for (std::size_t band = 0; band < plan.bands.size(); ++band)
-        bands[job.part().layout.channel_names[plan.bands[band].channel]] = band;
+    std::map<std::string, std::size_t> columns;
+    for (std::size_t column = 0; column < plan.columns.size(); ++column)
+        columns[job.part().layout.channel_names[plan.columns[column].channel]] = column;
     std::string out = "oiiotool " + quoted(job.file->path());
     if (job.file->parts().size() > 1)
         out += fmt::format(" --subimage {}", job.part_index);
@@ -69,13 +73,14 @@ Result<std::string> oiiotool_command(const image::CollapseJob& job, const std::s
     for (std::size_t row = 0; row < plan.weights.rows(); ++row) {
         std::vector<std::string> weights;
         for (const std::string& name : order) {
-            const auto band = bands.find(name);
-            found += band != bands.end();
-            weights.push_back(band == bands.end() ? "0" : format_double(plan.weights.at(row, band->second)));
+            const auto column = columns.find(name);
+            found += column != columns.end();
+            weights.push_back(column == columns.end() ? "0"
+                                                      : format_double(plan.weights.at(row, column->second)));
         }
         out += fmt::format(" \\\n  --dup --chsum:weight={} --swap", join(weights, ","));
     }
-    if (found != plan.weights.rows() * plan.bands.size())
+    if (found != plan.weights.rows() * plan.columns.size())
         return fail(ErrorCode::Unsupported, "OpenImageIO's own reader calls some of its channels otherwise",
                     job.file->path());
     out += " \\\n  --pop";

@@ -95,6 +95,17 @@ Json config_json(const OutputSpace& space) {
             {"processor", source.processor}, {"linear", space.transform->is_linear()}};
 }
 
+/// The pairs of a fluorescent set, or null.
+Json reradiation_json(const CollapsePlan& plan) {
+    if (!plan.reradiation)
+        return nullptr;
+    Json pairs = Json::array();
+    for (const PlanColumn& column : plan.columns)
+        if (column.emitted_nm)
+            pairs.push_back({column.wavelength_nm, *column.emitted_nm});
+    return {{"pairs_nm", std::move(pairs)}, {"unlit_share", plan.reradiation->unlit_share}};
+}
+
 Json plan_object(const image::CollapseJob& job) {
     const CollapsePlan& plan = job.plan;
     Json weights = Json::array(), channels = Json::array();
@@ -102,8 +113,8 @@ Json plan_object(const image::CollapseJob& job) {
         const auto values = plan.weights.row(row);
         weights.push_back(std::vector<double>(values.begin(), values.end()));
     }
-    for (const Band& band : plan.bands)
-        channels.push_back(job.part().layout.channel_names[band.channel]);
+    for (const PlanColumn& column : plan.columns)
+        channels.push_back(job.part().layout.channel_names[column.channel]);
     Json filters = Json::array();
     for (const Filter& filter : plan.filters)
         filters.push_back(filter.path);
@@ -137,6 +148,7 @@ Json plan_object(const image::CollapseJob& job) {
             {"channel_names", job.channel_names()},
             {"wavelengths_nm", plan.wavelengths_nm()},
             {"channels", std::move(channels)},
+            {"reradiation", reradiation_json(plan)},
             {"weights", std::move(weights)},
             {"extrapolated_share", plan.extrapolated_share},
             {"recipe", recipe_text(plan.request)},

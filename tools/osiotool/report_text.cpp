@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numeric>
 
 namespace osio::tool {
 
@@ -37,6 +38,18 @@ std::string window_text(const image::Window& w) {
     return fmt::format("{},{} to {},{}", w.min_x, w.min_y, w.max_x, w.max_y);
 }
 
+/// "820 pairs T.in.out, 380-770 nm to 390-780 nm".
+std::string reradiation_text(const std::vector<Reradiation>& pairs) {
+    double first_nm = pairs[0].emitted_nm, last_nm = first_nm;
+    for (const Reradiation& pair : pairs) {
+        first_nm = std::min(first_nm, pair.emitted_nm);
+        last_nm = std::max(last_nm, pair.emitted_nm);
+    }
+    return fmt::format("{} pair{} T.in.out, {}-{} nm to {}-{} nm", pairs.size(), pairs.size() == 1 ? "" : "s",
+                       format_double(pairs.front().excited_nm), format_double(pairs.back().excited_nm),
+                       format_double(first_nm), format_double(last_nm));
+}
+
 std::string set_text(const image::Part& part, const SpectralSet& set) {
     const auto of_band = [](const Band& band) { return band.channel; };
     std::string out = fmt::format("  set {}: {}", set.name(), quantity_name(set.quantity()));
@@ -46,7 +59,7 @@ std::string set_text(const image::Part& part, const SpectralSet& set) {
     if (!set.bands.empty())
         out += ", " + spacing_text(set.wavelengths_nm()) + ", " + types_text(part, set.bands, of_band);
     if (!set.reradiation.empty())
-        out += fmt::format(", {} reradiation channels T.in.out", set.reradiation.size());
+        out += ", fluorescent: " + reradiation_text(set.reradiation);
     return out + "\n";
 }
 
@@ -143,6 +156,11 @@ std::string plan_text(const image::CollapseJob& job) {
     for (const BasisSpread& spread : basis_spread(plan))
         out += fmt::format("  if {:<14} {:.2f} dE2000 mean, {:.2f} max, over the ColorChecker\n",
                            basis_name(spread.basis), spread.residual.mean, spread.residual.max);
+    if (plan.reradiation)
+        out += fmt::format(
+            "reradiation  {} pairs, excited at {}, emitted at {}: elements of a Donaldson matrix\n",
+            plan.columns.size() - plan.bands.size(), spacing_text(plan.reradiation->excited_nm),
+            spacing_text(plan.reradiation->emitted_nm));
     for (const Filter& filter : plan.filters)
         out += fmt::format("filter       {}\n", filter.path);
     if (plan.display)
@@ -178,6 +196,15 @@ std::string plan_text(const image::CollapseJob& job) {
             row.push_back(fmt::format("{:.9f}", plan.weights.at(output, band)));
         table.add(std::move(row));
     }
+    if (plan.reradiation) {
+        std::vector<std::string> row{fmt::format("{} pairs, sum", plan.columns.size() - plan.bands.size()),
+                                     ""};
+        for (std::size_t output = 0; output < plan.outputs.size(); ++output) {
+            const auto weights = plan.weights.row(output).subspan(plan.bands.size());
+            row.push_back(fmt::format("{:.9f}", std::accumulate(weights.begin(), weights.end(), 0.0)));
+        }
+        table.add(std::move(row));
+    }
     out += "\n" + table.text();
     for (const std::string& warning : job.warnings)
         out += "warning: " + warning + "\n";
@@ -211,10 +238,12 @@ std::string bake_text(const BakedMatrix& baked) {
 std::string outcome_text(const image::CollapseJob& job, const CollapseOutcome& outcome) {
     const CollapsePlan& plan = job.plan;
     std::string out = fmt::format(
-        "{}: {}x{} {} {}, from {} bands of set {}{} ({}), plan {}, {:.2f} s\n", outcome.output,
+        "{}: {}x{} {} {}, from {} bands{} of set {}{} ({}), plan {}, {:.2f} s\n", outcome.output,
         job.part().data_window.width(), job.part().data_window.height(), plan.space.id, outcome.type,
-        plan.bands.size(), plan.request.set, plan.illuminant ? " under " + plan.illuminant->id : "",
-        plan.observer.id, plan.id, outcome.seconds);
+        plan.bands.size(),
+        plan.reradiation ? fmt::format(" and {} pairs", plan.columns.size() - plan.bands.size()) : "",
+        plan.request.set, plan.illuminant ? " under " + plan.illuminant->id : "", plan.observer.id, plan.id,
+        outcome.seconds);
     const auto line = [&out, &outcome](std::uint64_t count, std::string_view what) {
         if (count > 0)
             out += fmt::format("note: {} of {} pixels {}\n", count, outcome.counts.pixels, what);

@@ -65,7 +65,7 @@ struct BudgetResult {
 /// What a budget is of.
 struct BudgetSubject {
     const CollapsePlan& plan;
-    std::vector<SampleType> types;  ///< of the samples of the plan's bands
+    std::vector<SampleType> types;  ///< of the samples of the plan's columns
     StoredDepth depth = StoredDepth::Float;
     bool has_alpha = false;
     /// The plan that is the truth; null: the plan itself. For the same bands and space.

@@ -79,11 +79,11 @@ struct CollapseTarget {
 };
 
 /// Collapses the blocks that hold `rows` and hands the rows to the sinks. The source's planes are the
-/// plans' bands in the plans' order (null where no output of any needs one), then alpha where
+/// plans' columns in the plans' order (null where no output of any needs one), then alpha where
 /// `has_alpha`; each sink gets its plan's outputs, then alpha as it was. Colour stays associated with
 /// alpha: a space with a curve is encoded from unassociated colour and associated again.
 ///
-/// All plans must be for the same bands, as those of one request under several lights are: each block
+/// All plans must be for the same columns, as those of one request under several lights are: each block
 /// is decoded and gone over once for all of them. Counts come in the order of the targets.
 [[nodiscard]] Result<std::vector<CollapseCounts>> collapse_stream(const BlockSource& source,
                                                                   std::span<const CollapseTarget> targets,

@@ -56,6 +56,10 @@ class PlanMaker {
         m_plan.request = request;
         m_plan.request.set = set.name();
         m_plan.bands = set.bands;
+        for (const Band& band : set.bands)
+            m_plan.columns.push_back({band.channel, band.wavelength_nm, std::nullopt});
+        for (const Reradiation& pair : set.reradiation)
+            m_plan.columns.push_back({pair.channel, pair.excited_nm, pair.emitted_nm});
     }
 
     Result<CollapsePlan> make() {
@@ -65,6 +69,7 @@ class PlanMaker {
         OSIO_CHECK_OK(choose_white());
         OSIO_CHECK_OK(choose_matrix());
         OSIO_CHECK_OK(weigh_bands());
+        OSIO_CHECK_OK(weigh_reradiation());
         measure_extrapolation();
         name_it();
         return std::move(m_plan);
@@ -212,16 +217,31 @@ class PlanMaker {
                 return fail(ErrorCode::InvalidGrid,
                             "the responses of the bands do not tell them apart; use basis=linear");
         }
-        m_plan.weights = WeightMatrix(m_plan.outputs.size(), m_plan.bands.size());
+        m_plan.weights = WeightMatrix(m_plan.outputs.size(), m_plan.columns.size());
         for (std::size_t band = 0; band < m_plan.bands.size(); ++band) {
             const std::size_t i = m_plan.distinct.index_of_band[band];
             const double share = m_plan.distinct.share_of(band);
-            const Vector3 out =
-                m_output_from_curves *
-                Vector3{share * integrals[0][i], share * integrals[1][i], share * integrals[2][i]};
-            for (std::size_t row = 0; row < m_plan.weights.rows(); ++row)
-                m_plan.weights.at(row, band) = out[row];
+            set_column(band, {share * integrals[0][i], share * integrals[1][i], share * integrals[2][i]});
         }
+        return {};
+    }
+
+    void set_column(std::size_t column, const Vector3& integrals) {
+        const Vector3 out = m_output_from_curves * integrals;
+        for (std::size_t row = 0; row < m_plan.weights.rows(); ++row)
+            m_plan.weights.at(row, column) = out[row];
+    }
+
+    Result<void> weigh_reradiation() {
+        if (m_set.reradiation.empty())
+            return {};
+        OSIO_TRY(m_plan.reradiation,
+                 reradiation_weights(m_set, m_plan.basis.basis, m_plan.distinct.grid, *m_plan.illuminant,
+                                     m_plan.filters, m_plan.observer));
+        for (std::size_t pair = 0; pair < m_set.reradiation.size(); ++pair)
+            set_column(m_plan.bands.size() + pair, m_plan.reradiation->integrals[pair]);
+        for (const std::string& warning : m_plan.reradiation->warnings)
+            m_plan.warnings.push_back(warning);
         return {};
     }
 
@@ -272,8 +292,11 @@ class PlanMaker {
             id.add(m_plan.display->digest);
         if (m_plan.space.transform)
             id.add(m_plan.space.color_space).add(m_plan.space.transform->source().processor);
-        for (const Band& band : m_plan.bands)
-            id.add(band.wavelength_nm);
+        for (const PlanColumn& column : m_plan.columns) {
+            id.add(column.wavelength_nm);
+            if (column.emitted_nm)
+                id.add(*column.emitted_nm);
+        }
         for (std::size_t row = 0; row < m_plan.weights.rows(); ++row)
             for (const double weight : m_plan.weights.row(row))
                 id.add(weight);

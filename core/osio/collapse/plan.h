@@ -4,6 +4,7 @@
 #include <osio/base/result.h>
 #include <osio/collapse/basis_choice.h>
 #include <osio/collapse/request.h>
+#include <osio/collapse/reradiation.h>
 #include <osio/collapse/text_loader.h>
 #include <osio/collapse/weights.h>
 #include <osio/colour/display.h>
@@ -19,6 +20,13 @@
 
 namespace osio {
 
+/// What a column of weights is multiplied by: a channel, and what it holds.
+struct PlanColumn {
+    std::size_t channel = 0;
+    double wavelength_nm = 0;          ///< of a pair that of the exciting light
+    std::optional<double> emitted_nm;  ///< of a pair
+};
+
 /// A request made ready for one set of bands: one row of weights for each output, everything folded
 /// in. A plan is built once and never changed; equal requests on equal bands have equal ids.
 struct CollapsePlan {
@@ -26,7 +34,8 @@ struct CollapsePlan {
     OutputSpace space;
     std::vector<std::string> outputs;  ///< what comes out: R, G, B; X, Y, Z; Y; L*, a*, b*; ...
     std::vector<Band> bands;           ///< by wavelength
-    WeightMatrix weights;              ///< outputs x bands, linear; PixelStage has what comes then
+    std::vector<PlanColumn> columns;   ///< the bands, then a fluorescent set's pairs
+    WeightMatrix weights;              ///< outputs x columns, linear; PixelStage has what comes then
     Observer observer;
     std::optional<Illuminant> illuminant;
     std::vector<Filter> filters;
@@ -34,9 +43,10 @@ struct CollapsePlan {
     BasisChoice basis;
     DistinctBands distinct;  ///< the bands as the curves that the basis is made of
     Quadrature quadrature = Quadrature::Sum1nm;
-    Vector3 white{};                         ///< XYZ of the white that values refer to, Y = 1
-    std::optional<Vector3> adapted_from;     ///< XYZ of the white that adaptation starts from, Y = 1
-    std::vector<double> extrapolated_share;  ///< for each output, share of weight beyond the bands
+    Vector3 white{};                                ///< XYZ of the white that values refer to, Y = 1
+    std::optional<Vector3> adapted_from;            ///< XYZ of the white that adaptation starts from, Y = 1
+    std::optional<ReradiationWeights> reradiation;  ///< of a fluorescent set
+    std::vector<double> extrapolated_share;         ///< for each output, share of weight beyond the bands
     std::vector<std::string> warnings;
     std::string id;
 
@@ -53,6 +63,9 @@ struct CollapsePlan {
 /// the perfect diffuser has Y = 1. Radiance: divided by sum y, so that flat 1 has Y = 1. Filters multiply
 /// S (or stand before the radiance) but not k, unless the request normalises them. Scale::Photometric
 /// takes k = 683 lm/W (scotopic: 1700), Scale::Integral k = 1.
+///
+/// A pair T.in.out of a reflectance has a weight of its own beside the bands', with the same k: see
+/// reradiation_weights.
 ///
 /// Spaces with a white are adapted to it, by the request's `adaptation`, from the light's computed white
 /// without its filters (radiance: from D65, that is not at all for D65 spaces), or from the request's

@@ -91,7 +91,13 @@ Result<void> check_observer(const Observer& observer, const OutputSpace& space) 
 
 Result<void> check_grid(const SpectralSet& set, const std::vector<double>& nm) {
     if (nm.empty())
-        return fail(ErrorCode::InvalidGrid, "set " + set.name() + " holds no band");
+        return fail(
+            ErrorCode::InvalidGrid,
+            "set " + set.name() + " holds no band" +
+                (set.reradiation.empty()
+                     ? std::string()
+                     : ", only " + std::to_string(set.reradiation.size()) +
+                           " pairs of reradiation: what it reflects without fluorescence is missing"));
     const std::string range = format_double(nm.front()) + "-" + format_double(nm.back()) + " nm";
     if (nm.front() > kObserverLastNm || nm.back() < kObserverFirstNm)
         return fail(ErrorCode::BandsOutsideObserver, "the bands of set " + set.name() + " cover " + range +
@@ -111,7 +117,7 @@ Result<void> check_width(const CollapsePlan& plan) {
 }
 
 Result<void> check_light(const CollapsePlan& plan, const NmSamples& power, double first_nm, double last_nm) {
-    if (!plan.illuminant || plan.distinct.grid.size() == 1)
+    if (!plan.illuminant || plan.distinct.grid.size() == 1 || plan.columns.size() > plan.bands.size())
         return {};
     for (std::size_t i = 0; i < power.size(); ++i) {
         const double nm = kObserverFirstNm + static_cast<double>(i);

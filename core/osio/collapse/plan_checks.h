@@ -31,7 +31,8 @@ namespace osio {
 [[nodiscard]] Result<void> check_width(const CollapsePlan& plan);
 
 /// InvalidGrid where a light has no power between the bands, which say something of first to last nm:
-/// every weight would rest on extrapolation. One wavelength says the same of all and is not refused.
+/// every weight would rest on extrapolation. One wavelength says the same of all and is not refused, nor is
+/// a fluorescent set, which light from elsewhere excites.
 /// `power`: of the light, its filters included, at 1 nm.
 [[nodiscard]] Result<void> check_light(const CollapsePlan& plan, const NmSamples& power, double first_nm,
                                        double last_nm);

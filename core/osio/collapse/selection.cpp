@@ -64,11 +64,17 @@ Result<void> check_samples(std::span<const PartSummary> parts, const Selection& 
         return fail(ErrorCode::Unsupported, part_label(parts, selection.part) +
                                                 " is deep (several samples a pixel); flatten it first");
     const SpectralSet& set = part.layout->sets[selection.set];
+    const auto check = [&](std::size_t channel) -> Result<void> {
+        if (!part.subsampled[channel])
+            return {};
+        return fail(ErrorCode::Unsupported,
+                    "band \"" + part.layout->channel_names[channel] +
+                        "\" is sub-sampled; every band needs a sample at every pixel");
+    };
     for (const Band& band : set.bands)
-        if (part.subsampled[band.channel])
-            return fail(ErrorCode::Unsupported,
-                        "band \"" + part.layout->channel_names[band.channel] +
-                            "\" is sub-sampled; every band needs a sample at every pixel");
+        OSIO_CHECK_OK(check(band.channel));
+    for (const Reradiation& pair : set.reradiation)
+        OSIO_CHECK_OK(check(pair.channel));
     return {};
 }
 

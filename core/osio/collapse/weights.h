@@ -7,7 +7,7 @@
 
 namespace osio {
 
-/// One row of doubles for each output, one column for each band. A weight of zero means that the
+/// One row of doubles for each output, one column for each band or pair of bands. A weight of zero means that the
 /// band is not read for that output: 0 x Inf never becomes NaN.
 class WeightMatrix {
   public:

@@ -19,7 +19,12 @@ Result<Filter> filter_from_csv(std::string_view csv, std::string_view path) {
                             " nm is not between 0 and 1; divide a table in per cent by 100",
                         std::string(path));
     }
-    Filter out{std::string(path), {}, sampled_at_1nm_held(*spectrum)};
+    Filter out{std::string(path),
+               {},
+               sampled_at_1nm_held(*spectrum),
+               ultraviolet_at_1nm_held(*spectrum),
+               spectrum->wavelengths_nm.front(),
+               spectrum->wavelengths_nm.back()};
     out.digest = digest_of(out.transmittance);
     return out;
 }

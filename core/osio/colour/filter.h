@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osio/base/result.h>
+#include <osio/colour/table_samples.h>
 #include <osio/spectra/basis.h>
 
 #include <string>
@@ -14,6 +15,9 @@ struct Filter {
     std::string path;
     std::string digest;  ///< names the numbers that were used
     NmSamples transmittance{};
+    UltravioletSamples ultraviolet{};    ///< transmittance there
+    double first_nm = kObserverFirstNm;  ///< where its table begins; end values count beyond it
+    double last_nm = kObserverLastNm;    ///< where its table ends
 };
 
 /// A filter from a user's table (see parse_spectrum_csv): straight lines at 1 nm, end values held beyond

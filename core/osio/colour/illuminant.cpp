@@ -18,6 +18,7 @@ namespace osio {
 namespace {
 
 constexpr std::string_view kTable = "illuminants/cie_1nm.csv";
+constexpr std::string_view kUltravioletTable = "illuminants/cie_uv.csv";
 
 /// Below this share of luminous power in a light (an ultraviolet lamp, say) 1/Y is noise: the
 /// smallest value of a CIE y-bar between 360 and 830 nm is 4.5e-7.
@@ -34,8 +35,34 @@ std::string canonical(std::string_view name) {
 constexpr std::array<std::string_view, 2> kFolders{"illuminants/", "light_sources/"};
 constexpr std::string_view kPowerColumn = "S";
 
-Illuminant light_of(std::string_view id, std::string_view source, const NmSamples& power) {
-    return {std::string(id), std::string(source), digest_of(power), power};
+Illuminant light_of(std::string_view id, std::string_view source, const NmSamples& power,
+                    const UltravioletSamples& ultraviolet, double first_nm, double last_nm) {
+    return {std::string(id), std::string(source), digest_of(power), power, ultraviolet, first_nm, last_nm};
+}
+
+Illuminant light_of(std::string_view id, std::string_view source, const Spectrum& curve) {
+    return light_of(id, source, sampled_at_1nm(curve), ultraviolet_at_1nm(curve),
+                    curve.wavelengths_nm.front(), curve.wavelengths_nm.back());
+}
+
+/// A column of the table at 1 nm, which has zeros where the light's own table says nothing, and its
+/// ultraviolet where there is any.
+Illuminant light_of_column(const Table& table, std::size_t index) {
+    const Spectrum curve = *table.column(table.columns[index]);
+    const auto stated = [](double power) { return power != 0; };
+    const auto first = std::find_if(curve.values.begin(), curve.values.end(), stated);
+    const auto last = std::find_if(curve.values.rbegin(), curve.values.rend(), stated);
+    double first_nm = curve.wavelengths_nm[static_cast<std::size_t>(first - curve.values.begin())];
+    const double last_nm =
+        curve
+            .wavelengths_nm[curve.values.size() - 1 - static_cast<std::size_t>(last - curve.values.rbegin())];
+    UltravioletSamples ultraviolet{};
+    if (const auto below = find_table(kUltravioletTable)->column(table.columns[index])) {
+        ultraviolet = ultraviolet_at_1nm(*below);
+        first_nm = below->wavelengths_nm.front();
+    }
+    return light_of(table.columns[index], table.sources[index], sampled_at_1nm(curve), ultraviolet, first_nm,
+                    last_nm);
 }
 
 /// Calls visit(light's name, table) for each table of one light.
@@ -70,9 +97,11 @@ Result<std::optional<Illuminant>> light_by_formula(std::string_view name) {
     if (const auto text = argument_of("D", name)) {
         OSIO_TRY(const double kelvin, parse_kelvin(*text, name));
         OSIO_TRY(const NmSamples power, daylight_power(kelvin));
+        OSIO_TRY(const UltravioletSamples ultraviolet, daylight_ultraviolet(kelvin));
         return light_of(
             "D(" + format_double(kelvin) + ")",
-            "CIE daylight, S0 + M1 S1 + M2 S2 with M1, M2 rounded to 3 decimals (CIE 15:2018, 4.1.2)", power);
+            "CIE daylight, S0 + M1 S1 + M2 S2 with M1, M2 rounded to 3 decimals (CIE 15:2018, 4.1.2)", power,
+            ultraviolet, kDaylightFirstNm, kObserverLastNm);
     }
     if (const auto text = argument_of("blackbody", name)) {
         OSIO_TRY(const double kelvin, parse_kelvin(*text, name));
@@ -80,7 +109,8 @@ Result<std::optional<Illuminant>> light_by_formula(std::string_view name) {
         return light_of("blackbody(" + (limit ? "inf" : format_double(kelvin)) + ")",
                         limit ? "limit of Rayleigh and Jeans, lambda^-4"
                               : "Planck's law, c2 = 1.438776877e7 nm K (CODATA 2018)",
-                        blackbody_power(kelvin));
+                        blackbody_power(kelvin), blackbody_ultraviolet(kelvin), kUltravioletFirstNm,
+                        kObserverLastNm);
     }
     return std::nullopt;
 }
@@ -95,11 +125,10 @@ Result<Illuminant> find_illuminant(std::string_view name) {
     const auto column = std::find_if(table.columns.begin(), table.columns.end(),
                                      [&](std::string_view c) { return to_lower(c) == canonical(name); });
     if (column != table.columns.end())
-        return light_of(*column, table.sources[static_cast<std::size_t>(column - table.columns.begin())],
-                        sampled_at_1nm(*table.column(*column)));
+        return light_of_column(table, static_cast<std::size_t>(column - table.columns.begin()));
     visit_single_tables([&](std::string_view id, const Table& single) {
         if (iequals(id, name))
-            light = light_of(id, single.sources[0], sampled_at_1nm(*single.column(kPowerColumn)));
+            light = light_of(id, single.sources[0], *single.column(kPowerColumn));
     });
     if (light)
         return std::move(*light);
@@ -119,9 +148,8 @@ Result<Illuminant> illuminant_from_csv(std::string_view csv, std::string_view pa
                             format_double(spectrum->wavelengths_nm[i]) +
                             " nm is negative; a light has none below zero",
                         std::string(path));
-    const NmSamples power = sampled_at_1nm(*spectrum);
-    OSIO_CHECK_OK(check_not_black(power, *spectrum, "power", path));
-    return light_of(path, "table " + std::string(path), power);
+    OSIO_CHECK_OK(check_not_black(sampled_at_1nm(*spectrum), *spectrum, "power", path));
+    return light_of(path, "table " + std::string(path), *spectrum);
 }
 
 std::vector<std::string> illuminant_names() {

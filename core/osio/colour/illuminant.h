@@ -4,6 +4,7 @@
 #include <osio/base/matrix3.h>
 #include <osio/base/result.h>
 #include <osio/colour/observer.h>
+#include <osio/colour/table_samples.h>
 #include <osio/spectra/basis.h>
 #include <osio/spectra/spectrum.h>
 
@@ -13,12 +14,16 @@
 
 namespace osio {
 
-/// A light: relative spectral power at 1 nm, 360-830 nm. Its scale never matters.
+/// A light: relative spectral power at 1 nm, 360-830 nm, and below it as far as its table goes. Its scale
+/// never matters.
 struct Illuminant {
     std::string id;      ///< "D65", or the path of the user's table
     std::string source;  ///< standard and edition, or the user's table
     std::string digest;  ///< of the table: names the numbers that were used
     NmSamples power{};
+    UltravioletSamples ultraviolet{};    ///< power there, which only fluorescence turns into colour
+    double first_nm = kObserverFirstNm;  ///< where its table begins; zero counts beyond it
+    double last_nm = kObserverLastNm;    ///< where its table ends
 };
 
 /// The light of that name (case ignored): a table ("D65", "A", "FL11", "HPS", ...; F2 is read as FL2),

@@ -31,6 +31,14 @@ Exponent exponent(double wavelength_nm, double temperature_kelvin) {
     return {x, remainder / product};
 }
 
+/// ln L + constant: L itself can be below any double.
+double log_power(double nm, double temperature_kelvin) {
+    if (std::isinf(temperature_kelvin))
+        return -4 * std::log(nm);
+    const double x = kSecondRadiationNmK / (nm * temperature_kelvin);
+    return -5 * std::log(nm) - x - std::log(-std::expm1(-x));
+}
+
 }  // namespace
 
 double planck_radiance_w_m2_sr_nm(double wavelength_nm, double temperature_kelvin) {
@@ -52,14 +60,22 @@ NmSamples blackbody_power(double temperature_kelvin) {
             out[i] = 100 * std::pow(kObserverFirstNm / nm_of(i), 4);
         return out;
     }
-    // ln L + constant, whose largest value is taken off before exp: L itself can be below any double.
-    for (std::size_t i = 0; i < out.size(); ++i) {
-        const double x = kSecondRadiationNmK / (nm_of(i) * temperature_kelvin);
-        out[i] = -5 * std::log(nm_of(i)) - x - std::log(-std::expm1(-x));
-    }
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = log_power(nm_of(i), temperature_kelvin);
     const double largest = *std::max_element(out.begin(), out.end());
     for (double& power : out)
         power = 100 * std::exp(power - largest);
+    return out;
+}
+
+UltravioletSamples blackbody_ultraviolet(double temperature_kelvin) {
+    double largest = log_power(kObserverFirstNm, temperature_kelvin);
+    for (int nm = kObserverFirstNm; nm <= kObserverLastNm; ++nm)
+        largest = std::max(largest, log_power(nm, temperature_kelvin));
+    UltravioletSamples out{};
+    for (std::size_t i = 0; i < out.size(); ++i)
+        out[i] = 100 * std::exp(log_power(kUltravioletFirstNm + static_cast<double>(i), temperature_kelvin) -
+                                largest);
     return out;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <osio/colour/table_samples.h>
 #include <osio/spectra/basis.h>
 
 /// Thermal light by formula.
@@ -19,5 +20,8 @@ inline constexpr double kSecondRadiationNmK = 1.438776877503933802e7;
 /// Relative power of a blackbody at 1 nm, largest value 100: finite for every T > 0, however cold.
 /// Infinite T gives the limit of Rayleigh and Jeans, lambda^-4.
 [[nodiscard]] NmSamples blackbody_power(double temperature_kelvin);
+
+/// Its ultraviolet on the same scale: 100 is the largest value of 360-830 nm.
+[[nodiscard]] UltravioletSamples blackbody_ultraviolet(double temperature_kelvin);
 
 }  // namespace osio

@@ -7,18 +7,34 @@
 
 namespace osio {
 
-NmSamples sampled_at_1nm(const Spectrum& spectrum) {
-    NmSamples out{};
+namespace {
+
+/// value_at at every nanometre from `first_nm` on.
+template <class Samples, class ValueAt>
+Samples sampled(int first_nm, ValueAt value_at) {
+    Samples out{};
     for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = spectrum.linear_at(kObserverFirstNm + static_cast<double>(i));
+        out[i] = value_at(first_nm + static_cast<double>(i));
     return out;
 }
 
+}  // namespace
+
+NmSamples sampled_at_1nm(const Spectrum& spectrum) {
+    return sampled<NmSamples>(kObserverFirstNm, [&](double nm) { return spectrum.linear_at(nm); });
+}
+
 NmSamples sampled_at_1nm_held(const Spectrum& spectrum) {
-    NmSamples out{};
-    for (std::size_t i = 0; i < out.size(); ++i)
-        out[i] = spectrum.held_at(kObserverFirstNm + static_cast<double>(i));
-    return out;
+    return sampled<NmSamples>(kObserverFirstNm, [&](double nm) { return spectrum.held_at(nm); });
+}
+
+UltravioletSamples ultraviolet_at_1nm(const Spectrum& spectrum) {
+    return sampled<UltravioletSamples>(kUltravioletFirstNm,
+                                       [&](double nm) { return spectrum.linear_at(nm); });
+}
+
+UltravioletSamples ultraviolet_at_1nm_held(const Spectrum& spectrum) {
+    return sampled<UltravioletSamples>(kUltravioletFirstNm, [&](double nm) { return spectrum.held_at(nm); });
 }
 
 std::string digest_of(const NmSamples& samples) {

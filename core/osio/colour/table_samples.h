@@ -5,6 +5,7 @@
 #include <osio/spectra/basis.h>
 #include <osio/spectra/spectrum.h>
 
+#include <array>
 #include <string>
 #include <string_view>
 
@@ -16,6 +17,17 @@ namespace osio {
 
 /// The same, but beyond its ends the curve keeps its end values.
 [[nodiscard]] NmSamples sampled_at_1nm_held(const Spectrum& spectrum);
+
+/// Values at 200, 201, ..., 359 nm: below what an observer sees, where light counts only for what it
+/// excites.
+using UltravioletSamples = std::array<double, 160>;
+inline constexpr int kUltravioletFirstNm = kObserverFirstNm - 160;
+
+/// Straight lines at 200, 201, ..., 359 nm, zero outside the curve.
+[[nodiscard]] UltravioletSamples ultraviolet_at_1nm(const Spectrum& spectrum);
+
+/// The same, but beyond its ends the curve keeps its end values.
+[[nodiscard]] UltravioletSamples ultraviolet_at_1nm_held(const Spectrum& spectrum);
 
 /// A name for the numbers: equal samples have equal digests.
 [[nodiscard]] std::string digest_of(const NmSamples& samples);

@@ -46,12 +46,26 @@ void warn_of_duplicates(const SpectralSet& set, ChannelLayout& layout) {
     }
 }
 
+/// Pairs of the same two wavelengths, and pairs against Stokes' law: fluorescence makes waves longer.
 void warn_of_reradiation(const SpectralSet& set, ChannelLayout& layout) {
-    if (!set.reradiation.empty())
-        layout.warnings.push_back("set " + set.name() + " is fluorescent: its " +
-                                  std::to_string(set.reradiation.size()) +
-                                  " reradiation channels (T.in.out) are not collapsed yet, only "
-                                  "what leaves at the wavelength at which it came");
+    std::vector<std::string> same, uphill;
+    for (std::size_t i = 0; i < set.reradiation.size(); ++i) {
+        const Reradiation& pair = set.reradiation[i];
+        const std::string& name = layout.channel_names[pair.channel];
+        if (i > 0 && set.reradiation[i - 1].excited_nm == pair.excited_nm &&
+            set.reradiation[i - 1].emitted_nm == pair.emitted_nm)
+            same.push_back(name);
+        if (pair.emitted_nm <= pair.excited_nm)
+            uphill.push_back(name);
+    }
+    if (!same.empty())
+        layout.warnings.push_back(
+            quoted_list(same) + (same.size() == 1 ? " is a pair" : " are pairs") +
+            " of wavelengths that another channel has too; a collapse takes their mean");
+    if (!uphill.empty())
+        layout.warnings.push_back(quoted_list(uphill) + (uphill.size() == 1 ? " leaves" : " leave") +
+                                  " at no longer wavelength than the light that excites, as no fluorescence "
+                                  "does; a collapse takes the names at their word");
 }
 
 void warn_of_near_misses(ChannelLayout& layout) {

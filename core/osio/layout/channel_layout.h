@@ -29,7 +29,8 @@ struct Band {
     std::size_t channel = 0;
 };
 
-/// A fluorescent pair: light at excited_nm that leaves at emitted_nm.
+/// A fluorescent pair: light at excited_nm that leaves at emitted_nm. Its sample is an element of the
+/// Donaldson matrix: see reradiation_weights.
 struct Reradiation {
     double excited_nm = 0;
     double emitted_nm = 0;
@@ -40,8 +41,8 @@ struct Reradiation {
 struct SpectralSet {
     std::string root;
     Family family = Family::T;
-    std::vector<Band> bands;  ///< by wavelength; equal wavelengths in channel order
-    std::vector<Reradiation> reradiation;
+    std::vector<Band> bands;               ///< by wavelength; equal wavelengths in channel order
+    std::vector<Reradiation> reradiation;  ///< by excited_nm, then emitted_nm, then channel
 
     /// "T", "S0", "left.T": what `--set` takes.
     [[nodiscard]] std::string name() const;
@@ -81,7 +82,8 @@ struct ChannelLayout {
 };
 
 /// Sorts channels into sets: what each channel is, nothing for one that is no band. Every channel appears
-/// exactly once, in a set or in `others`. Duplicate wavelengths and reradiation are reported as warnings.
+/// exactly once, in a set or in `others`. Duplicate wavelengths and pairs, and
+/// reradiation that does not make waves longer, are reported as warnings.
 [[nodiscard]] ChannelLayout make_channel_layout(std::span<const std::string> channel_names,
                                                 std::span<const std::optional<ChannelName>> meanings);
 
