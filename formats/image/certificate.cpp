@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/image/certificate.h>
+#include <formats/image/white_luminance.h>
 
 #include <osio/base/text.h>
-#include <osio/base/value_statistics.h>
 #include <osio/budget/basis_alternatives.h>
 #include <osio/collapse/basis_spread.h>
 
@@ -13,9 +13,6 @@ namespace osio::image {
 
 namespace {
 
-/// A white that is exceeded by highlights only.
-constexpr double kWhitePercentile = 99;
-
 /// Digits of a CIEDE2000 in a sentence.
 constexpr int kDigits = 3;
 
@@ -25,44 +22,8 @@ class NoSink final : public RowSink {
     [[nodiscard]] Result<void> write_rows(int, int, std::span<const float* const>) override { return {}; }
 };
 
-/// Gathers one plane.
-class StatisticsSink final : public RowSink {
-  public:
-    explicit StatisticsSink(std::size_t width) : m_width(width) {}
-
-    [[nodiscard]] Result<void> write_rows(int, int row_count, std::span<const float* const> planes) override {
-        for (std::size_t i = 0; i < static_cast<std::size_t>(row_count) * m_width; ++i)
-            m_values.add(static_cast<double>(planes[0][i]));
-        return {};
-    }
-
-    [[nodiscard]] const ValueStatistics& values() const { return m_values; }
-
-  private:
-    std::size_t m_width;
-    ValueStatistics m_values;
-};
-
 RowRange all_rows(const CollapseJob& job) {
     return {job.part().data_window.min_y, job.part().data_window.max_y};
-}
-
-Result<double> bright_luminance(const CollapseJob& job, const TextLoader& load_text, Runner& runner,
-                                const Progress& progress) {
-    CollapseRequest request = job.plan.request;
-    OSIO_TRY(request.to, find_output_space("luminance"));
-    request.names = OutputNames::Default;
-    request.adaptation = CollapseRequest{}.adaptation;
-    request.white.clear();
-    OSIO_TRY(CollapseJob luminance, prepare_collapse(job.file, request, load_text));
-    luminance.alpha.reset();
-    OSIO_TRY(const auto source, luminance.open_source());
-    StatisticsSink sink(static_cast<std::size_t>(job.part().data_window.width()));
-    if (auto done = collapse_stream(*source, luminance.plan, false, all_rows(job), sink, runner, progress);
-        !done)
-        return tl::unexpected(std::move(done).error());
-    const double bright = sink.values().percentile(kWhitePercentile);
-    return bright > 0 ? bright : 1.0;
 }
 
 std::string delta_text(double delta_e) {
@@ -117,16 +78,9 @@ Result<std::unique_ptr<Certifier>> Certifier::create(const CollapseJob& job, Sto
     BudgetSubject subject{job.plan, job.column_types(), depth, job.alpha.has_value()};
     // What is refused is refused before the image is read for its white.
     OSIO_CHECK_OK(ErrorBudget::create(subject));
-    if (request.white_luminance) {
-        certificate.white_luminance = *request.white_luminance;
-        certificate.white_reason = "as requested";
-    } else if (job.plan.illuminant) {
-        certificate.white_luminance = 1;
-        certificate.white_reason = "the perfect diffuser";
-    } else {
-        OSIO_TRY(certificate.white_luminance, bright_luminance(job, load_text, runner, progress));
-        certificate.white_reason = "the 99th percentile of Y";
-    }
+    OSIO_TRY(const WhiteLuminance white, white_luminance_of(job, load_text, runner, progress));
+    certificate.white_luminance = white.y;
+    certificate.white_reason = white.reason;
     if (request.max_delta_e)
         out->compare_everywhere(job, load_text, subject);
     else

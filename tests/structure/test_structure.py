@@ -24,12 +24,12 @@ LIBRARIES = {
     r"tl/": r"core/osio/base/result\.h",
     r"hwy/": r"core/osio/budget/magnitude_simd\.cpp|core/osio/collapse/kernel_simd\.cpp|formats/exr/zip_simd\.cpp",
     r"libdeflate\.h": r"formats/exr/zip_codec\.cpp",
-    r"OpenEXR/|Imath/": r"formats/(convert|envi|exr|image)/|plugins/|tools/host_module/|examples/",
+    r"OpenEXR/|Imath/": r"formats/(convert|envi|exr|image|trade)/|plugins/|tools/host_module/|examples/",
     r"OpenImageIO/": r"plugins/|tools/host_module/",
     r"OpenColorIO/": r"plugins/ocio/",
     r"fmt/": r"tools/osiotool/",
     r"CLI/": r"tools/osiotool/main\.cpp",
-    r"nlohmann/": r"formats/image/certificate_json\.cpp|tools/osiotool/report_json\.cpp",
+    r"nlohmann/": r"formats/image/certificate_json\.cpp|tools/osiotool/report_(trade_)?json\.cpp",
 }
 
 OWN = re.compile(r"(osio|formats|plugins|tools)/")

@@ -34,6 +34,13 @@ TEST(ValueStatistics, AgreesWithSortedValues) {
     }
 }
 
+TEST(ValueStatistics, ZeroIsItsOwnPercentile) {
+    ValueStatistics statistics;
+    for (const double value : {-1.0, 0.0, 0.0, 0.0, 1.0})
+        statistics.add(value);
+    EXPECT_EQ(statistics.percentile(50), 0);
+}
+
 TEST(ValueStatistics, UndefinedValuesAreCountedApart) {
     ValueStatistics statistics;
     EXPECT_EQ(statistics.mean(), 0);

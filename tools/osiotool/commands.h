@@ -116,6 +116,16 @@ struct SpectrumOptions {
     bool range = false;  ///< CSV has minimum and maximum too
 };
 
+struct TradeOptions {
+    std::string input;
+    RequestWords request;
+    int runs = 3;
+    unsigned threads = 0;
+    bool quiet = false;
+    bool json = false;
+    bool csv = false;
+};
+
 struct ListOptions {
     std::string what;    ///< illuminants, observers, spaces, bases
     std::string config;  ///< of spaces: OCIO config to list too; empty: the environment's
@@ -132,6 +142,7 @@ struct ListOptions {
 [[nodiscard]] Result<ExitCode> run_bake(const BakeOptions& options);
 [[nodiscard]] Result<ExitCode> run_weights(const WeightsOptions& options);
 [[nodiscard]] Result<ExitCode> run_spectrum(const SpectrumOptions& options);
+[[nodiscard]] Result<ExitCode> run_trade(const TradeOptions& options);
 [[nodiscard]] Result<ExitCode> run_list(const ListOptions& options);
 [[nodiscard]] Result<ExitCode> run_doctor();
 

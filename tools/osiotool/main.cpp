@@ -80,6 +80,7 @@ class CommandLine {
         add_bake();
         add_weights();
         add_spectrum();
+        add_trade();
         add_list();
         add("doctor", "tell whether OpenImageIO sees our plugins, and if not, why",
             [] { return run_doctor(); });
@@ -282,6 +283,18 @@ class CommandLine {
         command->add_flag("--range", m_spectrum.range, "of a table: minimum and maximum of the region too");
     }
 
+    void add_trade() {
+        CLI::App* const command = add("trade", "what accuracy costs on this image: every choice, measured",
+                                      [this] { return run_trade(m_trade); });
+        command->add_option("input", m_trade.input, "spectral image")->required();
+        add_request_options(*command, m_trade.request, {"max-delta-e", "names"});
+        command->add_option("--runs", m_trade.runs, "of each choice; default 3")->type_name("N");
+        command->add_option("--threads", m_trade.threads, "default: one a processor")->type_name("N");
+        command->add_flag("--quiet", m_trade.quiet, "no warnings, no progress");
+        command->add_flag("--json", m_trade.json, "as JSON");
+        command->add_flag("--csv", m_trade.csv, "as comma-separated values");
+    }
+
     void add_list() {
         CLI::App* const command = add("list", "names that options take", [this] { return run_list(m_list); });
         command->add_option("what", m_list.what, "illuminants, observers, spaces or bases")->required();
@@ -326,6 +339,7 @@ class CommandLine {
     BakeOptions m_bake;
     WeightsOptions m_weights;
     SpectrumOptions m_spectrum;
+    TradeOptions m_trade;
     ListOptions m_list;
 };
 

@@ -23,7 +23,10 @@ std::uint32_t bucket_of(double value) {
 
 double middle_of(std::uint32_t bucket) {
     const std::uint32_t ordered = (bucket << kDroppedBits) | (1U << (kDroppedBits - 1));
-    return static_cast<double>(std::bit_cast<float>((ordered & kSign) != 0 ? ordered & ~kSign : ~ordered));
+    const auto middle =
+        static_cast<double>(std::bit_cast<float>((ordered & kSign) != 0 ? ordered & ~kSign : ~ordered));
+    // Of the buckets around zero, which keep no fraction worth the name, zero itself.
+    return std::abs(middle) < static_cast<double>(std::numeric_limits<float>::min()) ? 0 : middle;
 }
 
 }  // namespace

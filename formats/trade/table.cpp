@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <formats/image/white_luminance.h>
+#include <formats/trade/table.h>
+
+#include <algorithm>
+
+namespace osio::trade {
+
+namespace {
+
+/// The share of the work that looking at every pixel takes, about; the rest is shared by the runs.
+constexpr double kWorthShare = 0.2;
+
+/// A choice that another makes pointless: nearer, or as near, and not slower; and better in one of both.
+bool beats(const Offer& a, const Offer& b) {
+    const double near_a = a.worth.delta_e.maximum(), near_b = b.worth.delta_e.maximum();
+    const bool same_time = a.cost.all.same_as(b.cost.all);
+    const bool faster = !same_time && a.cost.all.median < b.cost.all.median;
+    return near_a <= near_b && (faster || (same_time && near_a < near_b));
+}
+
+}  // namespace
+
+void sort_and_mark(std::vector<Offer>& offers) {
+    std::stable_sort(offers.begin(), offers.end(),
+                     [](const Offer& a, const Offer& b) { return a.cost.all.median < b.cost.all.median; });
+    for (Offer& offer : offers)
+        offer.on_front = std::none_of(offers.begin(), offers.end(),
+                                      [&offer](const Offer& other) { return beats(other, offer); });
+}
+
+Result<Table> make_table(const image::CollapseJob& job, int runs, MemoryMeter meter,
+                         const TextLoader& load_text, Runner& runner, const Progress& progress) {
+    Table out;
+    OSIO_TRY(const image::WhiteLuminance white, image::white_luminance_of(job, load_text, runner, {}));
+    out.white_luminance = white.y;
+    out.white_reason = white.reason;
+    out.recipe = recipe_text(job.plan.request);
+    out.workers = runner.worker_count();
+    out.runs = runs;
+    OSIO_TRY(Choices choices, make_choices(job, white.y, load_text));
+    const auto within = [&progress](double from, double share) -> Progress {
+        if (!progress)
+            return {};
+        return [&progress, from, share](double done) { return progress(from + share * done); };
+    };
+    OSIO_TRY(const std::vector<Worth> worths, worth_of(job, choices, runner, within(0, kWorthShare)));
+    OSIO_TRY(const auto bench, Workbench::create(job, std::move(choices), std::move(meter)));
+    const std::vector<Choice>& list = bench->choices().list;
+    const double each = (1 - kWorthShare) / static_cast<double>(list.size());
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const double from = kWorthShare + each * static_cast<double>(i);
+        OSIO_TRY(const Cost cost, bench->measure(i, runs, load_text, runner, within(from, 0)));
+        out.offers.push_back({list[i].name, list[i].meaning, list[i].bands, cost, worths[i], false});
+    }
+    sort_and_mark(out.offers);
+    return out;
+}
+
+}  // namespace osio::trade

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <tools/osiotool/report_trade.h>
+
+#include <nlohmann/json.hpp>
+
+namespace osio::tool {
+
+std::string trade_json(const std::string& input, const trade::Table& table) {
+    using Json = nlohmann::ordered_json;
+    Json choices = Json::array();
+    for (const trade::Offer& offer : table.offers) {
+        const trade::Cost& cost = offer.cost;
+        const ValueStatistics& delta = offer.worth.delta_e;
+        choices.push_back({{"choice", offer.name},
+                           {"meaning", offer.meaning},
+                           {"bands", offer.bands},
+                           {"seconds", cost.all.median},
+                           {"fastest", cost.all.fastest},
+                           {"slowest", cost.all.slowest},
+                           {"against_exact", time_against_exact(table, offer)},
+                           {"decode", cost.decode},
+                           {"collapse", cost.collapse},
+                           {"write", cost.write},
+                           {"bytes_read", cost.bytes_read},
+                           {"bytes_written", cost.bytes_written},
+                           {"peak_mb", cost.peak_mb},
+                           {"undefined_pixels", delta.undefined_count()},
+                           {"delta_e_mean", delta.mean()},
+                           {"delta_e_95", delta.percentile(95)},
+                           {"delta_e_99_9", delta.percentile(99.9)},
+                           {"delta_e_max", delta.maximum()},
+                           {"largest_xyz", offer.worth.largest_xyz},
+                           {"front", offer.on_front}});
+    }
+    const Json out{{"input", input},
+                   {"recipe", table.recipe},
+                   {"white_luminance", table.white_luminance},
+                   {"white_luminance_from", table.white_reason},
+                   {"runs", table.runs},
+                   {"workers", table.workers},
+                   {"choices", std::move(choices)}};
+    return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace osio::tool
