@@ -77,6 +77,9 @@ class Dialects(OsioCase):
         # The command of a stock oiiotool works on the stored numbers.
         self.check("sh", "-c", self.osiotool("weights", "i.exr", "--to", "xyz", "--oiiotool", "-o", "stock.exr").stdout)
         self.assertSamePixels("stock.exr", "i_xyz.exr", rtol=1e-5)
+        self.write("half.exr", [f"wavelength{nm - 20}" for nm in NM], scale=1e4, types=HALF)
+        refused = self.osiotool("collapse", "half.exr", "no.exr", "--to", "xyz", "--max-delta-e", "1", code=1).stderr
+        self.assertIn("no bound counts how they were rounded", refused)
         self.assertIn("times 1e-9", self.osiotool("collapse", "i.exr", "again.exr", "--to", "xyz").stderr)
 
     def test_what_is_not_stated_is_said_or_asked(self):
