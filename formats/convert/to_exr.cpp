@@ -64,7 +64,7 @@ Result<void> write_exr(const Request& request, const Choice& choice, Runner& run
     std::vector<exr::OutputChannel> channels;
     bool rounded = false;
     for (std::size_t c = 0; c < names.size(); ++c) {
-        const SampleType type = part.channels[choice.channels[c]].type;
+        const SampleType type = part.channels[choice.channels[c]].delivered();
         const SampleType stored = type == SampleType::Uint ? type : request.depth.value_or(type);
         rounded = rounded || (type == SampleType::Float && stored == SampleType::Half);
         channels.push_back({names[c], stored});

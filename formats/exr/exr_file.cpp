@@ -6,6 +6,7 @@
 #include <formats/exr/header_bytes.h>
 #include <formats/exr/limits.h>
 #include <formats/exr/part_bands.h>
+#include <formats/exr/scaled_source.h>
 
 #include <osio/base/text.h>
 
@@ -201,7 +202,13 @@ Result<void> ExrFile::read_headers(std::uint64_t file_bytes, const OpenWords& wo
 
 Result<std::unique_ptr<BlockSource>> ExrFile::make_block_source(std::size_t part, PlaneChannels planes,
                                                                 Grain grain) const {
-    return exr::make_block_source(shared_from_this(), part, std::move(planes), grain);
+    std::vector<double> factors;
+    for (const auto& channel : planes)
+        factors.push_back(channel ? parts()[part].channels[*channel].scale : 1);
+    OSIO_TRY(auto source, exr::make_block_source(shared_from_this(), part, std::move(planes), grain));
+    if (std::all_of(factors.begin(), factors.end(), [](double factor) { return factor == 1; }))
+        return source;
+    return with_factors(std::move(source), std::move(factors));
 }
 
 bool starts_like_exr(const std::string& path) {

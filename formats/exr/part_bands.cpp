@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/exr/part_bands.h>
+#include <formats/image/header_attributes.h>
 
 #include <osio/layout/part_layout.h>
 
-#include <OpenEXR/ImfDoubleAttribute.h>
-#include <OpenEXR/ImfFloatAttribute.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
-#include <array>
-#include <charconv>
 #include <optional>
 #include <string>
 #include <utility>
@@ -17,30 +14,11 @@ namespace osio::exr {
 
 namespace {
 
-/// The shortest decimal that reads back as the same number: a float of 5.5e-7 is no 5.49999997e-7.
-template <class Number>
-std::string shortest(Number value) {
-    std::array<char, 32> text{};
-    const auto [end, error] = std::to_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc() ? std::string(text.data(), end) : std::string();
-}
-
-HeaderAttributes attributes_of(const Imf::Header& header) {
-    HeaderAttributes out{image::text_attributes(header), {}};
-    for (auto a = header.begin(); a != header.end(); ++a) {
-        if (const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&a.attribute()))
-            out.numbers.emplace(a.name(), shortest(number->value()));
-        else if (const auto* wide = dynamic_cast<const Imf::DoubleAttribute*>(&a.attribute()))
-            out.numbers.emplace(a.name(), shortest(wide->value()));
-    }
-    return out;
-}
-
 Result<PartLayout> layout_of(const image::Part& part, const OpenWords& words) {
     std::vector<std::string> names;
     for (const image::Channel& channel : part.channels)
         names.push_back(channel.name);
-    return read_part_layout(names, attributes_of(part.header), words);
+    return read_part_layout(names, image::header_attributes(part.header), words);
 }
 
 void take(PartLayout layout, image::Part& part) {
@@ -49,6 +27,9 @@ void take(PartLayout layout, image::Part& part) {
     for (const auto& [name, value] : layout.attributes)
         part.header.insert(name, Imf::StringAttribute(value));
     part.layout = std::move(layout.layout);
+    for (const SpectralSet& set : part.layout.sets)
+        for (const Band& band : set.bands)
+            part.channels[band.channel].scale = layout.scale;
     part.metadata = read_spectral_metadata(part.layout, image::text_attributes(part.header));
 }
 

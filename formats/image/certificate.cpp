@@ -76,6 +76,13 @@ Result<std::unique_ptr<Certifier>> Certifier::create(const CollapseJob& job, Sto
     certificate.max_delta_e = request.max_delta_e;
     certificate.assumption = alternatives_assumption(job.plan);
     BudgetSubject subject{job.plan, job.column_types(), depth, job.alpha.has_value()};
+    for (const PlanColumn& column : job.plan.columns)
+        if (const Channel& channel = job.part().channels[column.channel];
+            channel.type == SampleType::Half && channel.scale != 1)
+            return fail(ErrorCode::Unsupported,
+                        "bands are halves that are read times " + format_double(channel.scale) +
+                            ", and no bound counts how they were rounded; expected floats",
+                        job.file->path());
     // What is refused is refused before the image is read for its white.
     OSIO_CHECK_OK(ErrorBudget::create(subject));
     OSIO_TRY(const WhiteLuminance white, white_luminance_of(job, load_text, runner, progress));

@@ -43,7 +43,8 @@ class Certifier {
   public:
     /// Where the request leaves `white-luminance` open and the bands are radiance, reads the image once to find
     /// the 99th percentile of Y. With `max-delta-e` the indicator is taken at every pixel, which takes as many
-    /// collapses as there are bases; else over the patches of basis_spread(). The refusals of ErrorBudget::create() and of reading.
+    /// collapses as there are bases; else over the patches of basis_spread(). The refusals of ErrorBudget::create() and of reading;
+    /// Unsupported for halves that a dialect scales.
     [[nodiscard]] static Result<std::unique_ptr<Certifier>> create(const CollapseJob& job, StoredDepth depth,
                                                                    const TextLoader& load_text,
                                                                    Runner& runner, const Progress& progress);

@@ -19,14 +19,14 @@ std::vector<std::string> CollapseJob::channel_names() const {
 std::vector<SampleType> CollapseJob::column_types() const {
     std::vector<SampleType> types;
     for (const PlanColumn& column : plan.columns)
-        types.push_back(part().channels[column.channel].type);
+        types.push_back(part().channels[column.channel].delivered());
     return types;
 }
 
 std::vector<SampleType> CollapseJob::plane_types() const {
     std::vector<SampleType> types = column_types();
     if (alpha)
-        types.push_back(part().channels[*alpha].type);
+        types.push_back(part().channels[*alpha].delivered());
     return types;
 }
 

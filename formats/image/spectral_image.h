@@ -21,11 +21,15 @@
 /// An image of many channels, whichever format its file has.
 namespace osio::image {
 
-/// A channel as readers deliver it.
+/// A channel of a part.
 struct Channel {
     std::string name;
-    SampleType type = SampleType::Float;
+    SampleType type = SampleType::Float;  ///< as stored
     bool subsampled = false;
+    double scale = 1;  ///< readers deliver the stored samples times this, as floats where it is not 1
+
+    /// How readers deliver it.
+    [[nodiscard]] SampleType delivered() const { return scale == 1 ? type : SampleType::Float; }
 };
 
 /// A box of pixels, both corners inside.

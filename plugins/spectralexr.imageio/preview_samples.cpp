@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <plugins/spectralexr.imageio/preview_samples.h>
 
-#include <formats/exr/block_source.h>
 #include <formats/exr/exr_file.h>
 
 #include <osio/collapse/kernel.h>
@@ -84,7 +83,7 @@ std::vector<PreviewSample> preview_samples_of_file(const std::string& path, std:
         planes[band.channel] = band.channel;
     for (const std::size_t channel : channels->rgb)
         planes[channel] = channel;
-    const auto source = exr::make_block_source(*file, part, planes);
+    const auto source = (*file)->make_block_source(part, planes, image::Grain::Block);
     if (!source)
         return {};
     const auto reader = (*source)->start_reader();

@@ -75,7 +75,7 @@ Result<std::unique_ptr<Subimage>> make_raw_subimage(std::shared_ptr<const image:
     image::PlaneChannels planes;
     spec.channelnames.clear();
     for (const PresentedChannel& channel : present_channels(header.layout, names)) {
-        const OIIO::TypeDesc type = host_type(header.channels[channel.channel].type);
+        const OIIO::TypeDesc type = host_type(header.channels[channel.channel].delivered());
         if (channel.name == "A")
             spec.alpha_channel = static_cast<int>(planes.size());
         if (channel.name == "Z")

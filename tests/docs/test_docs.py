@@ -135,6 +135,7 @@ class Reference(OsioCase):
     def test_every_key_of_json(self):
         words = ("--to", "srgb", "--illuminant", "A")
         self.names(self.keys_of(self.osiotool_json("info", "shot.exr")))
+        self.names(self.keys_of(self.osiotool_json("audit", "shot.exr")))
         self.names(self.keys_of(self.osiotool_json("plan", "shot.exr", *words)))
         self.names(self.keys_of(self.osiotool_json("verify", "shot.exr")))
         self.names(self.keys_of(self.osiotool_json("collapse", "shot.exr", "o.exr", *words)))
@@ -149,7 +150,7 @@ class Reference(OsioCase):
         self.names(self.keys_of(self.osiotool_json("photometry", "radiance.exr")))
 
     def test_every_option(self):
-        for command in ("info", "collapse", "plan", "verify", "difference", "photometry", "bake", "weights", "spectrum", "list"):
+        for command in ("info", "audit", "collapse", "plan", "verify", "difference", "photometry", "bake", "weights", "spectrum", "list"):
             text = self.osiotool(command, "--help").stdout
             self.names(set(re.findall(r"^  --?([a-z][a-z-]*)", text, re.M)) - {"h"})
 

@@ -188,7 +188,7 @@ TEST(PartLayout, AWordThatTheNamesDenyIsRefused) {
         read_part_layout(Names{"T.400nm", "T.410nm"}, {}, {std::nullopt, Quantity::Radiance});
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, ErrorCode::Contradiction);
-    EXPECT_EQ(refused.error().text(), "quantity=radiance does not fit: the bands are T of the spectral EXR "
+    EXPECT_EQ(refused.error().text(), "quantity=radiance does not fit: the bands are T by the spectral EXR "
                                       "layout, which is reflectance");
     EXPECT_TRUE(read_part_layout(Names{"T.400nm"}, {}, {std::nullopt, Quantity::Reflectance}));
     EXPECT_TRUE(read_part_layout(Names{"T.400nm", "S0.400nm"}, {}, {std::nullopt, Quantity::Radiance}));

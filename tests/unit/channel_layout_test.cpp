@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <osio/layout/channel_layout.h>
-#include <osio/layout/dialect.h>
 #include <osio/layout/presentation.h>
 #include <osio/layout/spectral_metadata.h>
 
@@ -103,24 +102,6 @@ TEST(Presentation, WrittenNamesAreTheLayoutsOwn) {
 TEST(Presentation, WrittenDuplicatesStayApartAndMeanTheSame) {
     const Names names = layout_names(Names{"T.400nm", "T.4e2nm", "T.400.0nm", "T.400,5nm", "T.4005e-1nm"});
     EXPECT_EQ(names, (Names{"T.400nm", "T.400,0nm", "T.400,00nm", "T.400,5nm", "T.400,50nm"}));
-}
-
-TEST(Dialect, KnownProgramsAreNamed) {
-    const auto dialect = [](const Names& channels, const Names& attributes = {}) {
-        return recognise_dialect(channels, attributes).value_or("none");
-    };
-    EXPECT_NE(dialect({"395.00-405.00nm", "405.00-415.00nm"}).find("Mitsuba 0.x"), std::string::npos);
-    EXPECT_NE(dialect({"a.395.00-405.00nm", "a.405.00-415.00nm"}).find("Mitsuba 0.x"), std::string::npos);
-    EXPECT_NE(dialect({"wavelength400", "wavelength430_25"}).find("Indigo"), std::string::npos);
-    EXPECT_NE(dialect({"Radiance.C01", "Radiance.C02"}).find("ISET3D"), std::string::npos);
-    EXPECT_NE(dialect({"Band1", "Band2"}, {"gdal:Band_1"}).find("GDAL"), std::string::npos);
-    EXPECT_NE(dialect({"wl0", "wl1"}, {"wl0.wavelength", "wl1.wavelength"}).find("Ocean"), std::string::npos);
-    EXPECT_NE(dialect({"0", "1", "2", "3", "4"}).find("OpenCV"), std::string::npos);
-    EXPECT_NE(dialect({"b_550nm", "b_560nm"}).find("wavelength in them"), std::string::npos);
-    EXPECT_EQ(dialect({"R", "G", "B"}), "none");
-    EXPECT_EQ(dialect({"Band1", "Band2"}), "none");
-    EXPECT_EQ(dialect({"R", "550nm"}), "none");  // one is no pattern
-    EXPECT_EQ(dialect({}), "none");
 }
 
 TEST(SpectralMetadata, MissingAndOddAttributesAreWarnings) {

@@ -69,14 +69,16 @@ Result<std::string> oiiotool_command(const image::CollapseJob& job, const std::s
     std::string out = "oiiotool " + quoted(job.file->path());
     if (job.file->parts().size() > 1)
         out += fmt::format(" --subimage {}", job.part_index);
+    const auto of_stored = [&](std::size_t row, std::size_t column) {
+        return plan.weights.at(row, column) * job.part().channels[plan.columns[column].channel].scale;
+    };
     std::size_t found = 0;
     for (std::size_t row = 0; row < plan.weights.rows(); ++row) {
         std::vector<std::string> weights;
         for (const std::string& name : order) {
             const auto column = columns.find(name);
             found += column != columns.end();
-            weights.push_back(column == columns.end() ? "0"
-                                                      : format_double(plan.weights.at(row, column->second)));
+            weights.push_back(column == columns.end() ? "0" : format_double(of_stored(row, column->second)));
         }
         out += fmt::format(" \\\n  --dup --chsum:weight={} --swap", join(weights, ","));
     }

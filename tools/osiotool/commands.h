@@ -24,6 +24,12 @@ struct InfoOptions {
     bool json = false;
 };
 
+struct AuditOptions {
+    std::vector<std::string> inputs;
+    RequestWords request;  ///< wavelengths and quantity
+    bool json = false;
+};
+
 struct PlanOptions {
     std::string input;
     RequestWords request;
@@ -133,6 +139,7 @@ struct ListOptions {
 };
 
 [[nodiscard]] Result<ExitCode> run_info(const InfoOptions& options);
+[[nodiscard]] Result<ExitCode> run_audit(const AuditOptions& options);
 [[nodiscard]] Result<ExitCode> run_plan(const PlanOptions& options);
 [[nodiscard]] Result<ExitCode> run_collapse(const CollapseOptions& options);
 [[nodiscard]] Result<ExitCode> run_convert(const ConvertOptions& options);

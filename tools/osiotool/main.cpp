@@ -71,6 +71,7 @@ class CommandLine {
                      "name, 3 not certified as max-delta-e asks, 4 input damaged or not spectral, 5 the "
                      "system refused, 130 interrupted.");
         add_info();
+        add_audit();
         add_collapse();
         add_plan();
         add_convert();
@@ -122,6 +123,15 @@ class CommandLine {
         command->add_option("file", m_info.input, "OpenEXR or ENVI file")->required();
         add_open_options(*command, m_info.request);
         command->add_flag("--json", m_info.json, "as JSON");
+    }
+
+    void add_audit() {
+        CLI::App* const command =
+            add("audit", "who wrote a file, what is assumed of it, its writer's quirks, what is wrong",
+                [this] { return run_audit(m_audit); });
+        command->add_option("file", m_audit.inputs, "OpenEXR or ENVI files")->required();
+        add_open_options(*command, m_audit.request);
+        command->add_flag("--json", m_audit.json, "as JSON");
     }
 
     void add_collapse() {
@@ -330,6 +340,7 @@ class CommandLine {
     CLI::App m_app;
     Run m_run;
     InfoOptions m_info;
+    AuditOptions m_audit;
     CollapseOptions m_collapse;
     PlanOptions m_plan;
     ConvertOptions m_convert;

@@ -22,6 +22,11 @@ Json optional_text(const std::optional<std::string>& text) {
     return text ? Json(*text) : Json(nullptr);
 }
 
+/// A text, or null where it is empty.
+Json named_text(const std::string& text) {
+    return text.empty() ? Json(nullptr) : Json(text);
+}
+
 Json set_json(const image::Part& part, const SpectralSet& set) {
     Json channels = Json::array(), types = Json::array();
     for (const Band& band : set.bands) {
@@ -62,6 +67,8 @@ Json part_json(const image::Part& part) {
             {"deep", part.deep},
             {"compression", part.compression},
             {"channels", part.channels.size()},
+            {"dialect", named_text(part.layout.dialect.name)},
+            {"dialect_evidence", named_text(part.layout.dialect.evidence)},
             {"layout_version", optional_text(part.metadata.layout_version)},
             {"sets", std::move(sets)},
             {"other_channels", std::move(others)},

@@ -81,7 +81,9 @@ std::string part_text(const image::Part& part, std::size_t index) {
                : ", display window " + window_text(part.display_window) + "\n";
     if (part.layout.sets.empty())
         out += "  no spectral bands\n";
-    else
+    if (const Dialect& dialect = part.layout.dialect; !dialect.name.empty() && dialect.name != kLayoutDialect)
+        out += "  dialect " + dialect.name + ": " + dialect.evidence + "\n";
+    else if (!part.layout.sets.empty())
         out += "  spectral layout version " + part.metadata.layout_version.value_or("not stated") + "\n";
     for (const SpectralSet& set : part.layout.sets)
         out += set_text(part, set);

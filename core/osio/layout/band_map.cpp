@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <osio/base/text.h>
 #include <osio/layout/band_map.h>
+#include <osio/spectra/decimal_nm.h>
 #include <osio/spectra/wavelength.h>
 
 #include <algorithm>
@@ -48,10 +49,6 @@ std::optional<double> length_nm(std::string_view text, std::string_view unit) {
 std::string_view unit_behind(std::string_view text) {
     const auto last = text.find_last_of("0123456789.");
     return last == std::string_view::npos ? text : text.substr(last + 1);
-}
-
-double rounded(double nm) {
-    return parse_double(format_fixed(nm, 9)).value_or(nm);
 }
 
 /// "b9_x" before "b10_a": runs of digits as numbers, all else as bytes.
@@ -189,12 +186,12 @@ Result<BandMap> parse_band_steps(std::string_view text) {
     if (!(steps < kMostSteps))
         return no_range(text, "are more wavelengths than a file has channels, 65536");
     if (std::abs(steps - std::round(steps)) > kStepTolerance)
-        return no_range(text, "does not end on a step: " + format_double(rounded(first)) + " nm plus " +
+        return no_range(text, "does not end on a step: " + format_double(decimal_nm(first)) + " nm plus " +
                                   std::to_string(static_cast<int>(steps)) + " steps are " +
-                                  format_double(rounded(first + step * std::floor(steps))) + " nm");
+                                  format_double(decimal_nm(first + step * std::floor(steps))) + " nm");
     BandMap out{std::string(text), {}, {}};
     for (int i = 0; i <= static_cast<int>(std::lround(steps)); ++i)
-        out.steps_nm.push_back(rounded(first + step * i));
+        out.steps_nm.push_back(decimal_nm(first + step * i));
     for (std::size_t i = 1; i < out.steps_nm.size(); ++i)
         if (out.steps_nm[i] <= out.steps_nm[i - 1])
             return no_range(text, "has steps that are too small");

@@ -125,10 +125,15 @@ std::optional<std::size_t> ChannelLayout::find_channel(std::string_view name) co
 }
 
 std::optional<std::size_t> ChannelLayout::alpha_of(const SpectralSet& set) const {
+    const auto other = [this](std::string_view name) {
+        const auto channel = find_channel(name);
+        const bool band = channel && !std::binary_search(others.begin(), others.end(), *channel);
+        return band ? std::nullopt : channel;
+    };
     if (!set.root.empty())
-        if (const auto own = find_channel(set.root + ".A"))
+        if (const auto own = other(set.root + ".A"))
             return own;
-    return find_channel("A");
+    return other("A");
 }
 
 ChannelLayout make_channel_layout(std::span<const std::string> channel_names,

@@ -71,7 +71,7 @@ struct ChannelLayout {
     std::vector<std::string> channel_names;  ///< the file's own
     Dialect dialect;
     std::vector<SpectralSet> sets;      ///< by root, then S0, S1, S2, S3, T
-    std::vector<std::size_t> others;    ///< channels that are no bands
+    std::vector<std::size_t> others;    ///< channels that are no bands, in ascending order
     std::vector<std::string> warnings;  ///< sentences for people
 
     /// Index of the channel with exactly that name.

@@ -36,40 +36,81 @@ Result<void> check_sets(const ChannelLayout& layout, std::optional<Quantity> wor
         std::any_of(sets.begin(), sets.end(), [&](const SpectralSet& set) { return set.quantity() == word; }))
         return {};
     return check_quantity(word, sets.front().quantity(),
-                          "the bands are " + sets.front().name() + " of the " + layout.dialect.name);
+                          "the bands are " + sets.front().name() + " by the " + layout.dialect.name);
+}
+
+/// The family of bands whose quantity a dialect may say.
+Family family_of(std::optional<Quantity> stated, const OpenWords& words, std::vector<std::string>& warnings) {
+    if (stated)
+        return *stated == Quantity::Radiance ? Family::S0 : Family::T;
+    return assumed_family(words.quantity, warnings);
+}
+
+/// A part by its names and its header alone.
+struct ByName {
+    PartLayout part;
+    Meanings meanings;
+    std::optional<Quantity> stated;     ///< by the dialect, of channels that are no bands by name
+    std::vector<std::string> warnings;  ///< that hold under a map too
+};
+
+ByName by_name(std::span<const std::string> names, const HeaderAttributes& header, const OpenWords& words) {
+    ByName out{{parse_channel_layout(names, DecimalMark::Comma), {}, {}, 1}, {}, {}, {}};
+    out.meanings = meanings_of(out.part.layout);
+    if (!out.part.layout.sets.empty())
+        return out;
+    auto reading = read_dialect(names, header);
+    if (!reading)
+        return out;
+    out.stated = reading->quantity;
+    out.meanings = std::move(reading->bands);
+    out.warnings = reading->warnings;
+    std::vector<std::string> warnings = std::move(out.part.layout.warnings);
+    warnings.insert(warnings.end(), reading->warnings.begin(), reading->warnings.end());
+    const bool bands = std::any_of(out.meanings.begin(), out.meanings.end(), [](const auto& m) { return m; });
+    if (bands && !reading->quantity) {
+        const Family family = family_of(reading->quantity, words, warnings);
+        for (auto& meaning : out.meanings)
+            if (meaning)
+                meaning->family = family;
+    }
+    if (!bands)
+        warnings.push_back(without_wavelengths(reading->dialect));
+    out.part.layout = make_channel_layout(names, out.meanings);
+    out.part.layout.dialect = std::move(reading->dialect);
+    out.part.layout.warnings.insert(out.part.layout.warnings.begin(), warnings.begin(), warnings.end());
+    out.part.attributes = std::move(reading->attributes);
+    out.part.scale = reading->scale;
+    return out;
 }
 
 /// The map's wavelengths for the channels of a part that was read by its names.
-Result<PartLayout> mapped(const PartLayout& by_name, const OpenWords& words) {
-    const auto& names = by_name.layout.channel_names;
+Result<PartLayout> mapped(ByName named, const OpenWords& words) {
+    const auto& names = named.part.layout.channel_names;
     OSIO_TRY(const auto places, map_bands(*words.wavelengths, names));
-    Meanings meanings = meanings_of(by_name.layout);
-    std::vector<std::string> warnings;
+    std::vector<std::string> warnings = std::move(named.warnings);
     std::optional<Family> assumed;
+    std::vector<std::string> replaced{std::string(attribute::kBinEdges), std::string(attribute::kFwhm)};
     for (std::size_t channel = 0; channel < names.size(); ++channel) {
+        auto& meaning = named.meanings[channel];
         if (!places[channel]) {
-            meanings[channel].reset();
+            meaning.reset();
             continue;
         }
-        if (!meanings[channel]) {
+        if (!meaning) {
             if (!assumed)
-                assumed = assumed_family(words.quantity, warnings);
-            meanings[channel] = ChannelName{{}, *assumed, 0, std::nullopt};
+                assumed = family_of(named.stated, words, warnings);
+            meaning = ChannelName{{}, *assumed, 0, std::nullopt};
         }
-        meanings[channel]->wavelength_nm = places[channel]->wavelength_nm;
+        meaning->wavelength_nm = places[channel]->wavelength_nm;
+        replaced.push_back(names[channel]);  // a sensitivity, which has wavelengths of its own
     }
-    PartLayout out{make_channel_layout(names, meanings), by_name.attributes, {}};
-    out.layout.dialect = by_name.layout.dialect;
-    out.layout.dialect.name = "user's map";
-    out.layout.dialect.evidence = "wavelengths=" + words.wavelengths->words;
+    PartLayout out{make_channel_layout(names, named.meanings), named.part.attributes, std::move(replaced),
+                   named.part.scale};
+    out.layout.dialect = {"user's map", "wavelengths=" + words.wavelengths->words,
+                          std::move(named.part.layout.dialect.attributes)};
     out.layout.warnings.insert(out.layout.warnings.begin(), warnings.begin(), warnings.end());
-    for (const std::string_view name : {attribute::kBinEdges, attribute::kFwhm}) {
-        out.attributes.erase(std::string(name));
-        out.replaced.emplace_back(name);
-    }
-    for (std::size_t channel = 0; channel < names.size(); ++channel)
-        if (places[channel])
-            out.replaced.push_back(names[channel]);  // a sensitivity, which has wavelengths of its own
+    out.attributes.erase(std::string(attribute::kBinEdges));
     if (const std::string fwhm = fwhm_text(places); !fwhm.empty())
         out.attributes.emplace(attribute::kFwhm, fwhm);
     return out;
@@ -95,16 +136,11 @@ Result<void> check_quantity(std::optional<Quantity> word, Quantity stated, std::
 
 Result<PartLayout> read_part_layout(std::span<const std::string> channel_names,
                                     const HeaderAttributes& header, const OpenWords& words) {
-    PartLayout out{parse_channel_layout(channel_names, DecimalMark::Comma), {}, {}};
-    std::vector<std::string> attributes;
-    for (const auto* named : {&header.texts, &header.numbers})
-        for (const auto& [name, value] : *named)
-            attributes.push_back(name);
-    if (out.layout.sets.empty())
-        if (const auto dialect = recognise_dialect(channel_names, attributes))
-            out.layout.dialect = {*dialect, "a dialect that is not read yet", {}};
-    OSIO_CHECK_OK(check_sets(out.layout, words.quantity));
-    return words.wavelengths ? mapped(out, words) : out;
+    ByName named = by_name(channel_names, header, words);
+    OSIO_CHECK_OK(check_sets(named.part.layout, words.quantity));
+    if (!words.wavelengths)
+        return std::move(named.part);
+    return mapped(std::move(named), words);
 }
 
 }  // namespace osio

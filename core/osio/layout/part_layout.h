@@ -3,6 +3,7 @@
 
 #include <osio/base/result.h>
 #include <osio/layout/channel_layout.h>
+#include <osio/layout/dialect.h>
 #include <osio/layout/open_words.h>
 #include <osio/layout/spectral_metadata.h>
 
@@ -12,20 +13,15 @@
 
 namespace osio {
 
-/// A header's attributes, as far as dialects state wavelengths in them.
-struct HeaderAttributes {
-    TextAttributes texts;
-    TextAttributes numbers;  ///< floats and doubles, as their shortest decimals
-};
-
 /// What a part's names, its header and the user's words say its channels are.
 struct PartLayout {
     ChannelLayout layout;
     TextAttributes attributes;          ///< what the dialect says, as attributes of the layout
     std::vector<std::string> replaced;  ///< attributes of the header that the user's words take the place of
+    double scale = 1;                   ///< samples of bands times this are per nanometre
 };
 
-/// Understands a part. Contradiction where the words do not fit it: a map that is not of its channels, a
+/// Understands a part: names of the spectral EXR layout, else the dialect of read_dialect(). Contradiction where the words do not fit it: a map that is not of its channels, a
 /// quantity that its names deny.
 ///
 /// A map of wavelengths replaces those that names or header say; root and family of a channel stay what its name

@@ -64,8 +64,11 @@ std::vector<PresentedChannel> present_channels(const ChannelLayout& layout, Band
                                                              : take_name(band, DecimalMark::Point, taken)});
     };
 
+    const auto is_other = [&layout](std::size_t channel) {
+        return std::binary_search(layout.others.begin(), layout.others.end(), channel);
+    };
     for (const std::string_view first : kFirst)
-        if (const auto channel = layout.find_channel(first))
+        if (const auto channel = layout.find_channel(first); channel && is_other(*channel))
             out.push_back({*channel, std::string(first)});
     for_each_band(layout, add_band);
     for (const std::size_t channel : layout.others)

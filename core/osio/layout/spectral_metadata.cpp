@@ -97,10 +97,10 @@ class Reader {
     void warn() {
         const bool emissive = has_family(Family::S0);
         const bool polarised = has_family(Family::S1) || has_family(Family::S2) || has_family(Family::S3);
-        if (!m_out.layout_version)
+        if (!m_out.layout_version && m_layout.dialect.name == kLayoutDialect)
             m_out.warnings.emplace_back(
                 "no spectralLayoutVersion: read as version 1.0 from the channel names alone");
-        else if (*m_out.layout_version != kWrittenLayoutVersion)
+        else if (m_out.layout_version && *m_out.layout_version != kWrittenLayoutVersion)
             m_out.warnings.push_back("spectralLayoutVersion is \"" + *m_out.layout_version +
                                      "\", not 1.0: read as version 1.0");
         if (emissive && !m_out.emissive_units)
