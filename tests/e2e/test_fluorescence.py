@@ -3,6 +3,7 @@
 
 import csv
 import io
+import json
 import time
 import unittest
 
@@ -117,6 +118,22 @@ class Fluorescence(OsioCase):
         self.assertEqual(sorted(before), sorted(after))
         for channel in before:
             self.assertTrue(np.array_equal(before[channel], after[channel]), channel)
+
+    def test_a_certificate_bounds_pairs_as_bands(self):
+        self.fluorescent(types=HALF)
+        self.osiotool("collapse", "f.exr", "o.exr", "--to", "xyz", "--illuminant", "D65", "--certificate", "c.json")
+        with open(self.path("c.json")) as file:
+            certificate = json.load(file)
+        self.assertEqual(certificate["not_proved"]["indicator_over"],
+                         "the 24 patches of the ColorChecker, which do not fluoresce")
+        # Half samples of pairs count too: with more of them the same image is known less well.
+        self.write_exr("dark.exr", {c: plane for c, plane in self.channels_of("f.exr").items() if c.count("nm") == 1},
+                       types=HALF)
+        self.osiotool("collapse", "dark.exr", "d.exr", "--to", "xyz", "--illuminant", "D65", "--certificate", "d.json")
+        with open(self.path("d.json")) as file:
+            dark = json.load(file)
+        self.assertTrue(np.all(np.array(certificate["proved"]["total"]["xyz"]) > dark["proved"]["total"]["xyz"]))
+        self.osiotool("collapse", "f.exr", "o.exr", "--to", "xyz", "--illuminant", "D65", "--max-delta-e", "50")
 
     def test_a_preview_shows_the_total(self):
         reflected, emitted = self.fluorescent("f.exr")

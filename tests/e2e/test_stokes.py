@@ -153,6 +153,13 @@ class Stokes(OsioCase):
         self.expect(pixels[..., 0], np.hypot(s["S1"], s["S2"]) / s["S0"], 2e-5)
         self.osiotool("collapse", "p.exr", "o.png", "--to", "aolp", "-d", "uint8", code=1)
 
+    def test_what_has_no_colour_difference_is_not_certified(self):
+        self.polarised()
+        for to in ("dolp", "aolp", "s0", "s1"):
+            result = self.osiotool("collapse", "p.exr", "o.exr", "--to", to, "--certificate", "c.json", code=2)
+            self.assertIn(f"the error of to={to} is not bounded", result.stderr)
+        self.assertEqual(self.files(), ["p.exr"])
+
     def test_what_is_missing_is_named(self):
         self.polarised(families=("S0", "S1"))
         result = self.osiotool("collapse", "p.exr", "o.exr", "--to", "dolp", code=1)

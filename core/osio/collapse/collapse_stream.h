@@ -46,7 +46,7 @@ struct CollapseCounts {
     std::uint64_t nan = 0;       ///< pixels with a NaN output
     std::uint64_t infinite = 0;  ///< pixels with an infinite output
     std::uint64_t negative = 0;  ///< pixels with a negative output, where that is outside what is real
-    PolarisationCounts polarisation;
+    PolarisationCounts polarisation{};
 
     CollapseCounts& operator+=(const CollapseCounts& other);
 };
