@@ -60,6 +60,9 @@ Imf::Header collapsed_header(const image::CollapseJob& job) {
             !names_a_band(part.layout.dialect, a.name()))
             out.insert(a.name(), a.attribute());
     const OutputSpace& space = plan.space;
+    if (part.metadata.handedness && (is_polarimetric(space.kind) || plan.has_sign))
+        out.insert(std::string(osio::attribute::kHandedness),
+                   Imf::StringAttribute(*part.metadata.handedness));
     if (has_primaries(space.kind) && !space.transform)
         out.insert(image::attribute::kChromaticities,
                    Imf::ChromaticitiesAttribute(Imf::Chromaticities(v2f(space.red), v2f(space.green),

@@ -118,7 +118,8 @@ void Certifier::compare_patches(const CollapseJob& job) {
         m_certificate.alternatives.emplace_back(basis_name(spread.basis));
         m_patch_indicator = std::max(m_patch_indicator, spread.residual.max);
     }
-    m_certificate.indicator_over = "the 24 patches of the ColorChecker";
+    m_certificate.indicator_over = std::string("the 24 patches of the ColorChecker") +
+                                   (job.plan.reradiation ? ", which do not fluoresce" : "");
 }
 
 Certificate Certifier::certificate(std::string output, const CollapseCounts& counts) const {

@@ -60,9 +60,13 @@ Result<CollapseJob> prepare_collapse(std::shared_ptr<const SpectralImage> file,
     const Part& part = file->parts()[selection.part];
     const ChannelLayout& layout = part.layout;
     const SpectralSet& set = layout.sets[selection.set];
-    auto plan = make_plan(set, part.metadata, request, load_text);
+    auto plan = make_plan(layout.sets, selection.set, part.metadata, request, load_text);
     if (!plan)
         return fail_in(file->path(), std::move(plan).error());
+    for (const PlanColumn& column : plan->columns)
+        if (part.channels[column.channel].subsampled)
+            return fail(ErrorCode::Unsupported,
+                        "band \"" + layout.channel_names[column.channel] + "\" is sub-sampled", file->path());
 
     CollapseJob job{std::move(file), selection.part, std::move(*plan), layout.alpha_of(set), layout.warnings};
     if (job.alpha && job.part().channels[*job.alpha].subsampled)

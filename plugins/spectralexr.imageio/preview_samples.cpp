@@ -49,15 +49,15 @@ std::vector<PreviewSample> preview_samples(const PreviewChannels& channels, cons
     const auto step = static_cast<std::size_t>(
         std::ceil(std::sqrt(std::max(1.0, pixels / static_cast<double>(kMostSamples)))));
     std::vector<PreviewSample> out;
-    std::vector<BandView> at(plan->bands.size());
+    std::vector<BandView> at(plan->columns.size());
     for (std::size_t y = 0; y < static_cast<std::size_t>(block.row_count); y += step) {
         const int row = block.first_row + static_cast<int>(y);
         const std::vector<BandView> planes = block.among({row, row}).planes;
         for (std::size_t x = 0; x < width; x += step) {
             std::array<float, 3> xyz{};
             const std::array<float*, 3> to{&xyz[0], &xyz[1], &xyz[2]};
-            std::transform(plan->bands.begin(), plan->bands.end(), at.begin(),
-                           [&](const Band& band) { return planes[band.channel].advanced(x); });
+            std::transform(plan->columns.begin(), plan->columns.end(), at.begin(),
+                           [&](const PlanColumn& column) { return planes[column.channel].advanced(x); });
             collapse_run_reference(at, plan->weights, 1, to);
             PreviewSample sample;
             for (std::size_t c = 0; c < 3; ++c) {
@@ -81,6 +81,8 @@ std::vector<PreviewSample> preview_samples_of_file(const std::string& path, std:
     image::PlaneChannels planes(layout.channel_names.size());
     for (const Band& band : channels->set.bands)
         planes[band.channel] = band.channel;
+    for (const Reradiation& pair : channels->set.reradiation)
+        planes[pair.channel] = pair.channel;
     for (const std::size_t channel : channels->rgb)
         planes[channel] = channel;
     const auto source = (*file)->make_block_source(part, planes, image::Grain::Block);

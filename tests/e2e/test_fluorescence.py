@@ -3,6 +3,7 @@
 
 import csv
 import io
+import json
 import time
 import unittest
 
@@ -50,7 +51,7 @@ class Fluorescence(OsioCase):
         self.assertRegex(said, r"warning: the light FL2 is known from 380 to 780 nm, .* no light is assumed at "
                                r"4 of 4 exciting bands \(300-360 nm\), which would have 100.00 % of the weight")
 
-    def test_half_samples_alpha_and_tiles(self):
+    def test_half_samples_and_tiles(self):
         reflected, emitted = self.fluorescent(types=HALF, tile=16)
         pixels, _, _ = self.both("f.exr", to="xyz", illuminant="D65", basis="linear")
         self.expect(pixels, self.oracle(reflected, emitted, "D65"))
@@ -118,6 +119,34 @@ class Fluorescence(OsioCase):
         for channel in before:
             self.assertTrue(np.array_equal(before[channel], after[channel]), channel)
 
+    def test_a_certificate_bounds_pairs_as_bands(self):
+        self.fluorescent(types=HALF)
+        self.osiotool("collapse", "f.exr", "o.exr", "--to", "xyz", "--illuminant", "D65", "--certificate", "c.json")
+        with open(self.path("c.json")) as file:
+            certificate = json.load(file)
+        self.assertEqual(certificate["not_proved"]["indicator_over"],
+                         "the 24 patches of the ColorChecker, which do not fluoresce")
+        # Half samples of pairs count too: with more of them the same image is known less well.
+        self.write_exr("dark.exr", {c: plane for c, plane in self.channels_of("f.exr").items() if c.count("nm") == 1},
+                       types=HALF)
+        self.osiotool("collapse", "dark.exr", "d.exr", "--to", "xyz", "--illuminant", "D65", "--certificate", "d.json")
+        with open(self.path("d.json")) as file:
+            dark = json.load(file)
+        self.assertTrue(np.all(np.array(certificate["proved"]["total"]["xyz"]) > dark["proved"]["total"]["xyz"]))
+        self.osiotool("collapse", "f.exr", "o.exr", "--to", "xyz", "--illuminant", "D65", "--max-delta-e", "50")
+
+    def test_a_preview_shows_the_total(self):
+        reflected, emitted = self.fluorescent("f.exr")
+        channels = self.channels_of("f.exr")
+        # Any 3x3 matrix on XYZ is a preview's recipe, the identity too.
+        xyz = self.oracle(reflected, emitted, "D65")
+        self.write_exr("p.spexr", dict({c: xyz[..., i] for i, c in enumerate("RGB")}, **channels))
+        self.check("oiiotool", "p.spexr", "-o", "same.spexr")
+        self.assertIn("R", self.exr_channels("same.spexr"))
+        dark = ",".join(["1"] * (3 + len(GRID)) + ["0"] * len(PAIRS))
+        self.check("oiiotool", "p.spexr", "--mulc", dark, "-o", "dark.spexr")
+        self.assertNotIn("R", self.exr_channels("dark.spexr"))
+
     def test_ninety_bands_and_all_their_pairs(self):
         grid = [335 + 5 * i for i in range(90)]
         pairs = [(i, o) for i in grid for o in grid if i < o]
@@ -135,6 +164,12 @@ class Fluorescence(OsioCase):
         self.write_exr("p.exr", {pair_name(p): np.ones((2, 2)) for p in PAIRS[:3]})
         result = self.osiotool("collapse", "p.exr", "o.exr", "--to", "xyz", "--illuminant", "D65", code=1)
         self.assertIn("holds no band, only 3 pairs of reradiation", result.stderr)
+
+    def test_a_spectrum_is_of_what_is_reflected_and_says_so(self):
+        self.fluorescent()
+        said = self.osiotool("spectrum", "f.exr", "0", "0")
+        self.assertIn("set T is fluorescent: this is what it reflects; what its 210 pairs send out", said.stderr)
+        self.assertEqual(len(said.stdout.splitlines()), 1 + len(GRID))
 
     def test_differences_are_of_the_total(self):
         self.fluorescent()

@@ -105,6 +105,12 @@ Result<ExitCode> run_spectrum(const SpectrumOptions& options) {
     OSIO_TRY(const auto spread, image::region_spectrum(*file, selection, region));
     for (const std::string& warning : part.layout.warnings)
         fmt::print(stderr, "warning: {}\n", warning);
+    if (!set.reradiation.empty())
+        fmt::print(
+            stderr,
+            "warning: set {} is fluorescent: this is what it reflects; what its {} pairs send out depends on "
+            "the light\n",
+            set.name(), set.reradiation.size());
     for (const image::BandSpread& band : spread)
         if (band.undefined != 0)
             fmt::print(stderr, "warning: {} of the samples at {:g} nm are NaN or infinite and are left out\n",

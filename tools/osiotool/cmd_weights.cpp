@@ -19,7 +19,7 @@ namespace {
 
 /// Something comes after the sums that a matrix cannot say.
 bool goes_on(const CollapsePlan& plan) {
-    return PixelStage(plan.space, plan.white).needed();
+    return PixelStage(plan.space, plan.white).needed() || is_polarisation(plan.space.kind);
 }
 
 std::string weights_csv(const image::CollapseJob& job) {

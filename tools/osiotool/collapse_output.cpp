@@ -168,10 +168,11 @@ Result<StoredType> choose_depth(const CollapseOptions& options, const OutputSpac
     }
     if (is_integer(type) && is_exr(options.output))
         return fail(ErrorCode::Usage, "an .exr stores half or float, not " + std::string(depth_name(type)));
-    if (is_integer(type) && !is_tristimulus(space.kind))
+    const bool degree = is_polarisation(space.kind) && space.kind != SpaceKind::AoLP;
+    if (is_integer(type) && !is_tristimulus(space.kind) && !degree)
         return fail(ErrorCode::Usage, space.id + " holds values beyond 0 to 1, which " +
                                           std::string(depth_name(type)) + " does not; use -d half or float");
-    if (is_integer(type) && is_linear(space) && !options.raw)
+    if (is_integer(type) && is_linear(space) && !degree && !options.raw)
         return fail(ErrorCode::Usage,
                     space.id + " is linear, and " + std::string(depth_name(type)) +
                         " has too few steps for it in the shadows; use --to srgb, -d half, or --raw "

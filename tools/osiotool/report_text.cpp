@@ -183,7 +183,7 @@ std::string plan_text(const image::CollapseJob& job) {
     }
     const std::vector<std::string> weighed = plan.weighed();
     out += "extrapolated";
-    for (std::size_t row = 0; row < plan.outputs.size(); ++row)
+    for (std::size_t row = 0; row < weighed.size(); ++row)
         out += fmt::format(" {} {}", weighed[row], percent(plan.extrapolated_share[row]));
     out += " of each output's weight\n";
 
@@ -191,17 +191,20 @@ std::string plan_text(const image::CollapseJob& job) {
     for (const std::string& output : weighed)
         columns.push_back({output, TextTable::Align::Right});
     TextTable table(columns);
-    for (std::size_t band = 0; band < plan.bands.size(); ++band) {
-        std::vector<std::string> row{job.part().layout.channel_names[plan.bands[band].channel],
-                                     format_double(plan.bands[band].wavelength_nm)};
-        for (std::size_t output = 0; output < plan.outputs.size(); ++output)
-            row.push_back(fmt::format("{:.9f}", plan.weights.at(output, band)));
+    for (std::size_t i = 0; i < plan.columns.size(); ++i) {
+        const PlanColumn& column = plan.columns[i];
+        if (column.emitted_nm)
+            continue;
+        std::vector<std::string> row{job.part().layout.channel_names[column.channel],
+                                     format_double(column.wavelength_nm)};
+        for (std::size_t output = 0; output < weighed.size(); ++output)
+            row.push_back(fmt::format("{:.9f}", plan.weights.at(output, i)));
         table.add(std::move(row));
     }
     if (plan.reradiation) {
         std::vector<std::string> row{fmt::format("{} pairs, sum", plan.columns.size() - plan.bands.size()),
                                      ""};
-        for (std::size_t output = 0; output < plan.outputs.size(); ++output) {
+        for (std::size_t output = 0; output < weighed.size(); ++output) {
             const auto weights = plan.weights.row(output).subspan(plan.bands.size());
             row.push_back(fmt::format("{:.9f}", std::accumulate(weights.begin(), weights.end(), 0.0)));
         }
@@ -253,6 +256,10 @@ std::string outcome_text(const image::CollapseJob& job, const CollapseOutcome& o
     line(outcome.counts.nan, "hold NaN");
     line(outcome.counts.infinite, "are infinite");
     line(outcome.counts.negative, "have a negative channel, outside the gamut");
+    line(outcome.counts.polarisation.undefined,
+         plan.space.kind == SpaceKind::AoLP ? "have no linear polarisation, so no angle: 0 was written"
+                                            : "have no light, so no degree: 0 was written");
+    line(outcome.counts.polarisation.beyond, "are polarised by more than 1, as no light is");
     line(outcome.clipped_pixels, "were clipped to 0 to 1");
     if (outcome.clamped_samples > 0)
         out +=

@@ -20,7 +20,7 @@ Vector3 white_of(const CollapsePlan& plan) {
 
 Result<OutputColour> output_colour(const CollapsePlan& plan, double white_luminance) {
     const SpaceKind kind = plan.space.kind;
-    if (plan.space.transform || !is_tristimulus(kind) || kind == SpaceKind::Camera)
+    if (plan.space.transform || !is_tristimulus(kind) || is_polarimetric(kind) || kind == SpaceKind::Camera)
         return fail(ErrorCode::Usage,
                     "the error of to=" + plan.space.id +
                         " is not bounded: expected a space whose numbers are sums over bands and have an "

@@ -88,12 +88,13 @@ CollapseCounts count(std::span<const float* const> planes, std::uint64_t pixels)
 /// A worker's share of one target.
 struct Branch {
     explicit Branch(const CollapseTarget& target)
-        : stage(target.plan.space, target.plan.white), outputs(target.plan.weights.rows()),
+        : plan(target.plan), stage(target.plan.space, target.plan.white), sums(target.plan.weights.rows()),
           worker(target.sink.start_worker()),
           witness(target.witness ? target.witness->start_worker() : nullptr) {}
 
+    const CollapsePlan& plan;
     PixelStage stage;
-    std::size_t outputs;
+    std::size_t sums;  ///< rows of weights
     std::unique_ptr<RowWorker> worker;
     std::unique_ptr<WitnessWorker> witness;
     CollapseCounts counts;
@@ -127,7 +128,7 @@ class Collapser final : public BlockVisitor {
         for (Branch& branch : m_branches) {
             if (m_prepared)
                 m_prepared = finish(branch, first, block, pixels);
-            first += branch.outputs;
+            first += branch.sums;
         }
     }
 
@@ -167,23 +168,35 @@ class Collapser final : public BlockVisitor {
         const float* const* sums = m_sums.data();
         for (const Branch& branch : m_branches) {
             if (branch.witness)
-                branch.witness->look(m_piece, count, {sums, branch.outputs});
-            sums += branch.outputs;
+                branch.witness->look(m_piece, count, {sums, branch.sums});
+            sums += branch.sums;
         }
     }
 
     /// Turns the sums from plane `first` on into what the target's space means, and prepares its rows.
     Result<void> finish(Branch& branch, std::size_t first, const PlanarBlock& block, std::size_t pixels) {
-        const std::span<float* const> sums(m_pointers.data() + first, branch.outputs);
-        if (branch.stage.needed())
-            branch.stage.apply(sums.first<3>(), m_shared.has_alpha ? m_planes.back().data() : nullptr,
-                               pixels);
+        const std::span<float* const> sums(m_pointers.data() + first, branch.sums);
+        const float* const alpha = m_shared.has_alpha ? m_planes.back().data() : nullptr;
         const std::size_t skip = static_cast<std::size_t>(m_first_row - block.first_row) * m_shared.width;
+        const std::size_t delivered = static_cast<std::size_t>(m_row_count) * m_shared.width;
+        PolarisationCounts polarisation;
+        std::size_t results = sums.size();
+        if (branch.stage.needed())
+            branch.stage.apply(sums.first<3>(), alpha, pixels);
+        if (is_polarisation(branch.plan.space.kind)) {
+            m_components.clear();
+            for (float* const plane : sums)
+                m_components.push_back(plane + skip);
+            polarisation = polarise(branch.plan.space.kind, m_components,
+                                    alpha != nullptr ? alpha + skip : nullptr, delivered);
+            results = 1;
+        }
         m_rows.clear();
-        for (const float* plane : sums)
+        for (const float* plane : sums.first(results))
             m_rows.push_back(plane + skip);
-        branch.counts = count(m_rows, static_cast<std::uint64_t>(m_row_count) * m_shared.width);
-        if (!branch.stage.negative_is_outside())
+        branch.counts = count(m_rows, delivered);
+        branch.counts.polarisation = polarisation;
+        if (!branch.stage.negative_is_outside() || branch.plan.has_sign)
             branch.counts.negative = 0;
         if (m_shared.has_alpha)
             m_rows.push_back(m_planes.back().data() + skip);
@@ -195,8 +208,9 @@ class Collapser final : public BlockVisitor {
     Result<void> m_prepared;
     std::vector<std::vector<float>> m_planes;
     std::vector<float*> m_pointers;
-    std::vector<BandView> m_piece;  ///< of the run in work
-    std::vector<float*> m_sums;
+    std::vector<BandView> m_piece;     ///< of the run in work
+    std::vector<float*> m_sums;        ///< of the run in work
+    std::vector<float*> m_components;  ///< of the rows to deliver
     bool m_witnessed = false;
     std::vector<const float*> m_rows;
     int m_first_row = 0;
@@ -214,6 +228,8 @@ CollapseCounts& CollapseCounts::operator+=(const CollapseCounts& other) {
     nan += other.nan;
     infinite += other.infinite;
     negative += other.negative;
+    polarisation.undefined += other.polarisation.undefined;
+    polarisation.beyond += other.polarisation.beyond;
     return *this;
 }
 

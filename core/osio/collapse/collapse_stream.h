@@ -2,6 +2,7 @@
 #pragma once
 
 #include <osio/collapse/plan.h>
+#include <osio/collapse/polarisation_stage.h>
 #include <osio/collapse/stream.h>
 
 #include <cstdint>
@@ -44,7 +45,8 @@ struct CollapseCounts {
     std::uint64_t pixels = 0;
     std::uint64_t nan = 0;       ///< pixels with a NaN output
     std::uint64_t infinite = 0;  ///< pixels with an infinite output
-    std::uint64_t negative = 0;  ///< pixels with a negative output
+    std::uint64_t negative = 0;  ///< pixels with a negative output, where that is outside what is real
+    PolarisationCounts polarisation{};
 
     CollapseCounts& operator+=(const CollapseCounts& other);
 };

@@ -22,12 +22,7 @@ Vector3 PixelStage::convert(const Vector3& linear) const {
         const UniformChromaticity uv = uv_of(linear, m_white);
         return {uv.u, uv.v, linear[1]};
     }
-    case SpaceKind::Luminance:
-    case SpaceKind::Camera:
-    case SpaceKind::Display:
-    case SpaceKind::Xyz:
-    case SpaceKind::XyzD65:
-    case SpaceKind::Rgb: break;
+    default: break;
     }
     if (m_space.transfer == Transfer::Srgb)
         return {srgb_encode(linear[0]), srgb_encode(linear[1]), srgb_encode(linear[2])};

@@ -3,8 +3,10 @@
 #include <osio/base/text.h>
 #include <osio/collapse/plan.h>
 #include <osio/collapse/plan_checks.h>
+#include <osio/collapse/stokes_plan.h>
 #include <osio/colour/adaptation.h>
 #include <osio/colour/photometric_constants.h>
+#include <osio/colour/polarisation.h>
 
 #include <array>
 #include <cmath>
@@ -55,6 +57,7 @@ class PlanMaker {
         : m_set(set), m_metadata(metadata), m_load_text(load_text) {
         m_plan.request = request;
         m_plan.request.set = set.name();
+        m_plan.has_sign = set.family == Family::S1 || set.family == Family::S2 || set.family == Family::S3;
         m_plan.bands = set.bands;
         for (const Band& band : set.bands)
             m_plan.columns.push_back({band.channel, band.wavelength_nm, std::nullopt});
@@ -159,7 +162,7 @@ class PlanMaker {
         const double gain = std::exp2(m_plan.request.exposure_stops);
         const Matrix3 scaled = Matrix3::diagonal({gain * k[0], gain * k[1], gain * k[2]});
         m_output_from_curves = scaled;
-        if (m_plan.space.kind == SpaceKind::Luminance)
+        if (is_single(m_plan.space.kind))
             m_output_from_curves.rows[0] = scaled.rows[1];
         if (!is_adapted(m_plan.space.kind))
             return {};
@@ -324,11 +327,17 @@ std::vector<double> CollapsePlan::wavelengths_nm() const {
 std::vector<std::string> CollapsePlan::weighed() const {
     if (space.transform)
         return space_outputs(space.kind);
+    if (is_polarisation(space.kind)) {
+        std::vector<std::string> out;
+        for (const std::size_t component : stokes_components(space.kind))
+            out.push_back("S" + std::to_string(component));
+        return out;
+    }
     return is_tristimulus(space.kind) ? outputs : space_outputs(SpaceKind::Xyz);
 }
 
 std::vector<std::string> CollapsePlan::channel_names() const {
-    const bool own = space.kind == SpaceKind::Luminance || !is_tristimulus(space.kind);
+    const bool own = is_single(space.kind) || !is_tristimulus(space.kind);
     if (own && request.names != OutputNames::Rgb)
         return outputs;
     if (request.names == OutputNames::Xyz)
@@ -338,7 +347,18 @@ std::vector<std::string> CollapsePlan::channel_names() const {
 
 Result<CollapsePlan> make_plan(const SpectralSet& set, const SpectralMetadata& metadata,
                                const CollapseRequest& request, const TextLoader& load_text) {
-    return PlanMaker(set, metadata, request, load_text).make();
+    return make_plan({&set, 1}, 0, metadata, request, load_text);
+}
+
+Result<CollapsePlan> make_plan(std::span<const SpectralSet> sets, std::size_t chosen,
+                               const SpectralMetadata& metadata, const CollapseRequest& request,
+                               const TextLoader& load_text) {
+    const auto make = [&](const SpectralSet& set) {
+        return PlanMaker(set, metadata, request, load_text).make();
+    };
+    if (request.to && is_polarimetric(request.to->kind))
+        return make_stokes_plan(sets, chosen, request.to->kind, make);
+    return make(sets[chosen]);
 }
 
 Result<CollapsePlan> make_plan(const SpectralSet& set, const CollapseRequest& request,

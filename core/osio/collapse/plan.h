@@ -15,6 +15,7 @@
 #include <osio/layout/spectral_metadata.h>
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -34,8 +35,9 @@ struct CollapsePlan {
     OutputSpace space;
     std::vector<std::string> outputs;  ///< what comes out: R, G, B; X, Y, Z; Y; L*, a*, b*; ...
     std::vector<Band> bands;           ///< by wavelength
-    std::vector<PlanColumn> columns;   ///< the bands, then a fluorescent set's pairs
-    WeightMatrix weights;              ///< outputs x columns, linear; PixelStage has what comes then
+    std::vector<PlanColumn> columns;   ///< the bands, then a fluorescent set's pairs or other components
+    WeightMatrix weights;              ///< weighed() x columns, linear; PixelStage has what comes then
+    bool has_sign = false;             ///< of S1, S2, S3: below zero is no colour outside a gamut
     Observer observer;
     std::optional<Illuminant> illuminant;
     std::vector<Filter> filters;
@@ -51,7 +53,8 @@ struct CollapsePlan {
     std::string id;
 
     [[nodiscard]] std::vector<double> wavelengths_nm() const;
-    /// What the rows of weights give: the outputs, or X, Y, Z where the outputs are made of those.
+    /// What the rows of weights give: the outputs, or X, Y, Z or Stokes components where the outputs are made
+    /// of those.
     [[nodiscard]] std::vector<std::string> weighed() const;
     /// How the result's channels are called, by the request's `names`.
     [[nodiscard]] std::vector<std::string> channel_names() const;
@@ -80,6 +83,12 @@ struct CollapsePlan {
 /// that contradict one another. What is only doubtful becomes a warning.
 [[nodiscard]] Result<CollapsePlan> make_plan(const SpectralSet& set, const SpectralMetadata& metadata,
                                              const CollapseRequest& request, const TextLoader& load_text);
+
+/// The same for `sets[chosen]`, where a polarimetric space takes the components of its root from all of
+/// `sets` (see make_stokes_plan).
+[[nodiscard]] Result<CollapsePlan> make_plan(std::span<const SpectralSet> sets, std::size_t chosen,
+                                             const SpectralMetadata& metadata, const CollapseRequest& request,
+                                             const TextLoader& load_text);
 
 /// The same for bands of which no header says anything.
 [[nodiscard]] Result<CollapsePlan> make_plan(const SpectralSet& set, const CollapseRequest& request,

@@ -23,14 +23,15 @@ Result<void> check_names(const CollapseRequest& request) {
     const SpaceKind kind = request.to->kind;
     if (request.names == OutputNames::Xyz && request.to->transform)
         return usage("names=xyz does not fit to=" + space + ", whose values are those of a colour config");
-    if (request.names == OutputNames::Xyz && (is_rgb(kind) || !is_tristimulus(kind)))
+    if (request.names == OutputNames::Xyz && (is_rgb(kind) || is_polarimetric(kind) || !is_tristimulus(kind)))
         return usage("names=xyz does not fit to=" + space + ", whose values are " +
                      (is_rgb(kind) ? "red, green and blue" : join(space_outputs(kind), ", ")));
     if (request.adaptation != CollapseRequest{}.adaptation && !is_adapted(kind))
         return usage("adapt=" + std::string(adaptation_name(request.adaptation)) +
                      " does not fit to=" + space + ", which is not adapted");
-    if (request.names == OutputNames::Rgb && kind == SpaceKind::Luminance)
-        return usage("names=rgb does not fit to=luminance, which is one channel, Y");
+    if (request.names == OutputNames::Rgb && is_single(kind))
+        return usage("names=rgb does not fit to=" + space + ", which is one channel, " +
+                     space_outputs(kind).front());
     return {};
 }
 
@@ -79,7 +80,7 @@ Result<void> check_quantity(const SpectralSet& set, const CollapseRequest& reque
 
 Result<void> check_observer(const Observer& observer, const OutputSpace& space) {
     const std::string observed = "observer=" + observer.id, to = "to=" + std::string(space.id);
-    if (observer.kind == ObserverKind::Luminous && space.kind != SpaceKind::Luminance)
+    if (observer.kind == ObserverKind::Luminous && !is_single(space.kind))
         return usage(observed + " has one curve and no colour; with it use to=luminance, not " + to);
     if (observer.kind == ObserverKind::Camera && space.kind != SpaceKind::Camera)
         return usage(observed +

@@ -54,6 +54,20 @@ tl::unexpected<Error> not_spectral(std::span<const PartSummary> parts, std::span
             "that is read, or wavelengths= that says what they are");
 }
 
+/// The sets that a polarimetric space may be made of: the first component of each root.
+std::vector<Selection> with_stokes(std::span<const PartSummary> parts, std::span<const Selection> all) {
+    std::vector<Selection> out;
+    for (const Selection& s : all) {
+        const SpectralSet& set = parts[s.part].layout->sets[s.set];
+        const bool known = std::any_of(out.begin(), out.end(), [&](const Selection& other) {
+            return other.part == s.part && parts[other.part].layout->sets[other.set].root == set.root;
+        });
+        if (set.family != Family::T && !known)
+            out.push_back(s);
+    }
+    return out;
+}
+
 bool stands_back(const SpectralSet& set) {
     return set.family == Family::S1 || set.family == Family::S2 || set.family == Family::S3;
 }
@@ -117,6 +131,12 @@ Result<Selection> select_set(std::span<const PartSummary> parts, const CollapseR
     });
     if (fitting.empty() && request.set.empty())
         fitting = all;
+    if (request.set.empty() && request.to && is_polarimetric(request.to->kind))
+        fitting = with_stokes(parts, all);
+    if (fitting.empty() && request.set.empty())
+        return fail(ErrorCode::NoSuchPart, "to=" + request.to->id +
+                                               " is made of Stokes components, and there is none; found " +
+                                               list_sets(parts, all));
     if (fitting.empty())
         return fail(ErrorCode::NoSuchPart,
                     "there is no set \"" + request.set + "\"; found " + list_sets(parts, all));

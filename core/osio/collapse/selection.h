@@ -30,7 +30,8 @@ struct Selection {
 [[nodiscard]] Result<std::size_t> select_part(std::span<const PartSummary> parts, const std::string& part);
 
 /// The set that a request means: `part` and `set` where they are given, otherwise the only set of
-/// the file (S1, S2 and S3 stand back where there is S0 or T). Refuses what is not there or fits
+/// the file (S1, S2 and S3 stand back where there is S0 or T; polarimetric spaces take the only root with
+/// Stokes components). Refuses what is not there or fits
 /// several, listing what the file has; a file without bands (NotSpectral, with the dialect's name
 /// where it is known); deep parts and sub-sampled bands.
 [[nodiscard]] Result<Selection> select_set(std::span<const PartSummary> parts,

@@ -15,8 +15,8 @@ constexpr Chromaticity kX{1, 0}, kY{0, 1}, kZ{0, 0}, kEqualEnergy{1.0 / 3.0, 1.0
 /// ACES AP1 (S-2014-004) and AP0 (SMPTE ST 2065-1); Adobe RGB (1998) 4.3.1; ISO 22028-2 (ROMM RGB,
 /// which Kodak called ProPhoto). Names and aliases of the first eight are those of the official OCIO
 /// configs for ACES, which have them since OCIO 2.1.
-const std::array<OutputSpace, 17>& spaces() {
-    static const std::array<OutputSpace, 17> kSpaces{{
+const std::array<OutputSpace, 25>& spaces() {
+    static const std::array<OutputSpace, 25> kSpaces{{
         {"xyz", "", "", SpaceKind::Xyz, Transfer::Linear, kX, kY, kZ, kEqualEnergy},
         {"xyz_d65", "lin_ciexyzd65_scene|cie_xyz_d65_scene|CIE XYZ-D65 - Scene-referred",
          "lin_ciexyzd65_scene", SpaceKind::XyzD65, Transfer::Linear, kX, kY, kZ, kEqualEnergy},
@@ -99,6 +99,14 @@ const std::array<OutputSpace, 17>& spaces() {
         {"luminance", "", "", SpaceKind::Luminance, Transfer::Linear, {}, {}, {}, {}},
         {"camera", "", "", SpaceKind::Camera, Transfer::Linear, {}, {}, {}, {}},
         {"display", "", "", SpaceKind::Display, Transfer::Linear, {}, {}, {}, {}},
+        {"s0", "", "", SpaceKind::S0, Transfer::Linear, {}, {}, {}, {}},
+        {"s1", "", "", SpaceKind::S1, Transfer::Linear, {}, {}, {}, {}},
+        {"s2", "", "", SpaceKind::S2, Transfer::Linear, {}, {}, {}, {}},
+        {"s3", "", "", SpaceKind::S3, Transfer::Linear, {}, {}, {}, {}},
+        {"dop", "", "", SpaceKind::DoP, Transfer::Linear, {}, {}, {}, {}},
+        {"dolp", "", "", SpaceKind::DoLP, Transfer::Linear, {}, {}, {}, {}},
+        {"docp", "", "", SpaceKind::DoCP, Transfer::Linear, {}, {}, {}, {}},
+        {"aolp", "", "", SpaceKind::AoLP, Transfer::Linear, {}, {}, {}, {}},
     }};
     return kSpaces;
 }
@@ -161,6 +169,14 @@ std::vector<std::string> space_outputs(SpaceKind kind) {
     case SpaceKind::Camera:
     case SpaceKind::Display: return {"R", "G", "B"};
     case SpaceKind::Luminance: return {"Y"};
+    case SpaceKind::S0: return {"S0"};
+    case SpaceKind::S1: return {"S1"};
+    case SpaceKind::S2: return {"S2"};
+    case SpaceKind::S3: return {"S3"};
+    case SpaceKind::DoP: return {"DoP"};
+    case SpaceKind::DoLP: return {"DoLP"};
+    case SpaceKind::DoCP: return {"DoCP"};
+    case SpaceKind::AoLP: return {"AoLP"};
     case SpaceKind::Lab: return {"L*", "a*", "b*"};
     case SpaceKind::Luv: return {"L*", "u*", "v*"};
     case SpaceKind::XyY: return {"x", "y", "Y"};

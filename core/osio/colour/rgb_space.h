@@ -45,12 +45,37 @@ enum class SpaceKind {
     Luminance,  ///< Y alone, not adapted
     Camera,     ///< a camera's own red, green, blue
     Display,    ///< red, green, blue that a measured display needs to show the colour
+    S0,         ///< Y of the Stokes component S0; as the next three, not adapted, with its sign
+    S1,
+    S2,
+    S3,
+    DoP,   ///< degree of polarisation of those four (polarisation.h)
+    DoLP,  ///< degree of linear polarisation
+    DoCP,  ///< degree of circular polarisation
+    AoLP,  ///< angle of linear polarisation, degrees
 };
+
+/// True where a value is a degree or an angle, made of Stokes components.
+[[nodiscard]] constexpr bool is_polarisation(SpaceKind kind) {
+    return kind == SpaceKind::DoP || kind == SpaceKind::DoLP || kind == SpaceKind::DoCP ||
+           kind == SpaceKind::AoLP;
+}
+
+/// True where a value is a Stokes component or made of them.
+[[nodiscard]] constexpr bool is_polarimetric(SpaceKind kind) {
+    return is_polarisation(kind) || kind == SpaceKind::S0 || kind == SpaceKind::S1 || kind == SpaceKind::S2 ||
+           kind == SpaceKind::S3;
+}
+
+/// True for one value a pixel.
+[[nodiscard]] constexpr bool is_single(SpaceKind kind) {
+    return kind == SpaceKind::Luminance || is_polarimetric(kind);
+}
 
 /// True where the values are sums over bands, and a curve at most.
 [[nodiscard]] constexpr bool is_tristimulus(SpaceKind kind) {
     return kind != SpaceKind::Lab && kind != SpaceKind::Luv && kind != SpaceKind::XyY &&
-           kind != SpaceKind::Uv;
+           kind != SpaceKind::Uv && !is_polarisation(kind);
 }
 
 /// True where values are adapted to the white of the space.
@@ -60,7 +85,7 @@ enum class SpaceKind {
 
 /// True where values depend on a white: adapted from it, or relative to it.
 [[nodiscard]] constexpr bool has_white(SpaceKind kind) {
-    return is_adapted(kind) || !is_tristimulus(kind);
+    return is_adapted(kind) || (!is_tristimulus(kind) && !is_polarisation(kind));
 }
 
 /// True for the spaces whose numbers are red, green and blue.
@@ -80,8 +105,8 @@ enum class Transfer {
     Srgb,  ///< IEC 61966-2-1
 };
 
-/// The three values of a kind: "X" "Y" "Z", "R" "G" "B", "L*" "a*" "b*", "L*" "u*" "v*", "x" "y" "Y",
-/// "u'" "v'" "Y". (Stars also keep a* apart from alpha where names are compared without case.)
+/// The values of a kind: "X" "Y" "Z", "R" "G" "B", "L*" "a*" "b*", "L*" "u*" "v*", "x" "y" "Y",
+/// "u'" "v'" "Y"; "Y", "S0" to "S3", "DoP", "DoLP", "DoCP" or "AoLP" alone. (Stars also keep a* apart from alpha where names are compared without case.)
 [[nodiscard]] std::vector<std::string> space_outputs(SpaceKind kind);
 
 /// A space that spectra can be collapsed to.
