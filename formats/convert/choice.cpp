@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/convert/choice.h>
 #include <formats/exr/output_header.h>
-#include <formats/image/open_image.h>
+#include <formats/image/preview_plan.h>
 
 #include <osio/base/text.h>
 
@@ -15,20 +15,6 @@ namespace osio::convert {
 namespace {
 
 constexpr std::size_t kNamed = 12;
-
-bool inside(const Range& range, double nm) {
-    return nm >= range.first_nm && nm <= range.last_nm;
-}
-
-/// The part's attributes without its structure.
-Imf::Header attributes_of(const image::Part& part) {
-    Imf::Header out(part.header.displayWindow(), part.header.dataWindow());
-    for (auto a = part.header.begin(); a != part.header.end(); ++a)
-        if (!exr::is_structural(a.name()) && !names_a_band(part.layout.dialect, a.name()))
-            out.insert(a.name(), a.attribute());
-    out.compression() = Imf::ZIP_COMPRESSION;
-    return out;
-}
 
 /// Bin edges of the bands that stay: bands i to j have the edges i to j + 1.
 void cut_bin_edges(const image::Part& part, const SpectralSet& whole, const SpectralSet& kept, Choice& out) {
@@ -50,39 +36,29 @@ void cut_bin_edges(const image::Part& part, const SpectralSet& whole, const Spec
     out.attributes.insert(name, Imf::StringAttribute(join(words, ";")));
 }
 
-/// Leaves out the bands of every set that are not in range, and a preview that showed them.
-Result<std::set<std::size_t>> outside(const Range& range, Choice& out) {
-    const image::Part& part = out.part();
-    std::set<std::size_t> left_out;
-    for (const SpectralSet& set : part.layout.sets) {
-        for (const Band& band : set.bands)
-            if (!inside(range, band.wavelength_nm))
-                left_out.insert(band.channel);
-        for (const Reradiation& pair : set.reradiation)
-            if (!inside(range, pair.excited_nm) || !inside(range, pair.emitted_nm))
-                left_out.insert(pair.channel);
-    }
-    const SpectralSet whole = out.set;
-    std::erase_if(out.set.bands, [&](const Band& band) { return left_out.contains(band.channel); });
-    if (out.set.bands.empty())
-        return fail(ErrorCode::Unsupported,
-                    "no band of set " + whole.name() + " lies in " + format_double(range.first_nm) + "-" +
-                        format_double(range.last_nm) + " nm; it has " +
-                        format_double(whole.bands.front().wavelength_nm) + "-" +
-                        format_double(whole.bands.back().wavelength_nm) + " nm",
-                    out.image->path());
-    if (left_out.empty())
-        return left_out;
-    cut_bin_edges(part, whole, out.set, out);
-    for (const char* name : {"R", "G", "B"})
-        if (const auto channel = part.layout.find_channel(name)) {
-            left_out.insert(*channel);
-            out.lost.push_back(std::string("channel ") + name + ", a preview of all bands");
-        }
-    return left_out;
+}  // namespace
+
+Imf::Header attributes_of(const image::Part& part) {
+    Imf::Header out(part.header.displayWindow(), part.header.dataWindow());
+    for (auto a = part.header.begin(); a != part.header.end(); ++a)
+        if (!exr::is_structural(a.name()) && !names_a_band(part.layout.dialect, a.name()))
+            out.insert(a.name(), a.attribute());
+    out.compression() = Imf::ZIP_COMPRESSION;
+    return out;
 }
 
-}  // namespace
+std::vector<std::string> picture_names(const std::string& root) {
+    std::vector<std::string> out;
+    for (const char* name : {"R", "G", "B"})
+        out.push_back(root.empty() ? name : root + "." + name);
+    return out;
+}
+
+void add_unique(std::vector<std::string> from, std::vector<std::string>& to) {
+    for (std::string& text : from)
+        if (std::find(to.begin(), to.end(), text) == to.end())
+            to.push_back(std::move(text));
+}
 
 std::string names_text(const std::vector<std::string>& names) {
     std::vector<std::string> shown(
@@ -92,42 +68,84 @@ std::string names_text(const std::vector<std::string>& names) {
                                     : std::string());
 }
 
-Result<Choice> choose(const Request& request, bool everything) {
+Choice choose(std::shared_ptr<const image::SpectralImage> image, const Selection& selection,
+              bool everything) {
     Choice out;
-    OSIO_TRY(out.image, image::open_image(request.input, request.words));
-    CollapseRequest words;
-    words.part = request.part;
-    words.set = request.set;
-    OSIO_TRY(const Selection selection, out.image->select(words));
+    out.image = std::move(image);
     out.part_index = selection.part;
     out.set = out.part().layout.sets[selection.set];
-    if (out.set.bands.empty())
-        return fail(ErrorCode::Unsupported, "set " + out.set.name() + " has reradiation only",
-                    out.image->path());
     out.attributes = attributes_of(out.part());
-    if (const std::size_t parts = out.image->parts().size(); parts > 1)
-        out.lost.push_back(std::to_string(parts - 1) + " other part" + (parts > 2 ? "s" : ""));
+    if (everything)
+        for (std::size_t channel = 0; channel < out.part().channels.size(); ++channel)
+            out.channels.push_back(channel);
+    else
+        for (const Band& band : out.set.bands)
+            out.channels.push_back(band.channel);
+    return out;
+}
+
+Result<void> leave_out(const std::function<bool(double nm)>& keep, const std::string& wanted,
+                       Choice& choice) {
+    const ChannelLayout& layout = choice.part().layout;
     std::set<std::size_t> left_out;
-    if (request.bands) {
-        OSIO_TRY(left_out, outside(*request.bands, out));
+    std::set<std::string> pictures;
+    for (const SpectralSet& set : layout.sets) {
+        const std::size_t before = left_out.size();
+        for (const Band& band : set.bands)
+            if (!keep(band.wavelength_nm))
+                left_out.insert(band.channel);
+        for (const Reradiation& pair : set.reradiation)
+            if (!keep(pair.excited_nm) || !keep(pair.emitted_nm))
+                left_out.insert(pair.channel);
+        if (left_out.size() != before)
+            for (std::string& name : picture_names(set.root))
+                pictures.insert(std::move(name));
     }
-    const auto& channels = out.part().channels;
-    if (everything) {
-        for (std::size_t channel = 0; channel < channels.size(); ++channel)
-            if (!left_out.contains(channel))
-                out.channels.push_back(channel);
-        return out;
+    const SpectralSet whole = choice.set;
+    std::erase_if(choice.set.bands, [&](const Band& band) { return left_out.contains(band.channel); });
+    if (choice.set.bands.empty())
+        return fail(ErrorCode::Unsupported,
+                    "no band of set " + whole.name() + " lies in " + wanted + "; it has " +
+                        format_double(whole.bands.front().wavelength_nm) + "-" +
+                        format_double(whole.bands.back().wavelength_nm) + " nm",
+                    choice.image->path());
+    if (left_out.empty())
+        return {};
+    cut_bin_edges(choice.part(), whole, choice.set, choice);
+    for (const std::size_t channel : layout.others)
+        if (pictures.contains(layout.channel_names[channel])) {
+            left_out.insert(channel);
+            choice.lost.push_back("channel " + layout.channel_names[channel] + ", a preview of all bands");
+        }
+    choice.attributes.erase(image::attribute::kPreviewRecipe);
+    std::erase_if(choice.channels, [&](std::size_t channel) { return left_out.contains(channel); });
+    choice.spoken_of.insert(left_out.begin(), left_out.end());
+    return {};
+}
+
+void leave_out_other_sets(Choice& choice) {
+    std::set<std::size_t> left_out;
+    for (const SpectralSet& set : choice.part().layout.sets) {
+        if (set.name() == choice.set.name())
+            continue;
+        for (const Band& band : set.bands)
+            left_out.insert(band.channel);
+        for (const Reradiation& pair : set.reradiation)
+            left_out.insert(pair.channel);
     }
-    for (const Band& band : out.set.bands)
-        out.channels.push_back(band.channel);
+    std::erase_if(choice.channels, [&](std::size_t channel) { return left_out.contains(channel); });
+    choice.spoken_of.insert(left_out.begin(), left_out.end());
+}
+
+void note_lost_channels(Choice& choice) {
+    const auto& channels = choice.part().channels;
     std::vector<std::string> others;
     for (std::size_t channel = 0; channel < channels.size(); ++channel)
-        if (!left_out.contains(channel) &&
-            std::find(out.channels.begin(), out.channels.end(), channel) == out.channels.end())
+        if (!choice.spoken_of.contains(channel) &&
+            std::find(choice.channels.begin(), choice.channels.end(), channel) == choice.channels.end())
             others.push_back(channels[channel].name);
     if (!others.empty())
-        out.lost.push_back((others.size() > 1 ? "channels " : "channel ") + names_text(others));
-    return out;
+        choice.lost.push_back((others.size() > 1 ? "channels " : "channel ") + names_text(others));
 }
 
 }  // namespace osio::convert

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/convert/samples.h>
-#include <formats/convert/targets.h>
+#include <formats/convert/sink.h>
 #include <formats/envi/attribute_fields.h>
 #include <formats/envi/envi_writer.h>
 #include <formats/exr/output_header.h>
@@ -50,13 +50,6 @@ bool is_written(const std::string& key) {
     return envi::is_structural(key) || std::find(kWritten.begin(), kWritten.end(), key) != kWritten.end();
 }
 
-/// Keys whose lists count bands as they were before.
-bool counts_bands(const std::string& key) {
-    constexpr std::array<std::string_view, 4> kByBand{
-        "default bands", "band names", "data reflectance gain values", "data reflectance offset values"};
-    return std::find(kByBand.begin(), kByBand.end(), key) != kByBand.end();
-}
-
 void add_fields(const Choice& choice, envi::EnviOutput& cube, std::vector<std::string>& lost) {
     const Imf::Header& header = choice.attributes;
     std::vector<std::string> names;
@@ -73,7 +66,7 @@ void add_fields(const Choice& choice, envi::EnviOutput& cube, std::vector<std::s
         const bool hidden =
             field && std::any_of(cube.fields.begin(), cube.fields.end(),
                                  [&](const envi::Field& other) { return other.key == field->key; });
-        if (!field || hidden || counts_bands(field->key))
+        if (!field || hidden || envi::counts_bands(field->key))
             names.push_back(name);
         else
             cube.fields.push_back(std::move(*field));
@@ -82,10 +75,29 @@ void add_fields(const Choice& choice, envi::EnviOutput& cube, std::vector<std::s
         lost.push_back((names.size() > 1 ? "attributes " : "attribute ") + names_text(names));
 }
 
+/// A cube that is being written.
+class EnviSink final : public Sink {
+  public:
+    EnviSink(std::unique_ptr<envi::EnviWriter> writer, std::size_t planes)
+        : m_writer(std::move(writer)), m_planes(planes) {}
+
+    [[nodiscard]] std::unique_ptr<BlockVisitor> start() override {
+        return std::make_unique<Floats>(*m_writer, m_planes);
+    }
+
+    [[nodiscard]] Result<void> finish(files::Durability durability, Outcome& outcome) override {
+        outcome.data = m_writer->data_path();
+        return m_writer->finish(durability);
+    }
+
+  private:
+    std::unique_ptr<envi::EnviWriter> m_writer;
+    std::size_t m_planes;
+};
+
 }  // namespace
 
-Result<void> write_envi(const Request& request, const Choice& choice, Runner& runner,
-                        const Progress& progress, Outcome& outcome) {
+Result<std::unique_ptr<Sink>> open_envi(const Request& request, const Choice& choice, Outcome& outcome) {
     const image::Part& part = choice.part();
     envi::EnviOutput cube;
     cube.samples = static_cast<std::size_t>(part.data_window.width());
@@ -96,28 +108,23 @@ Result<void> write_envi(const Request& request, const Choice& choice, Runner& ru
     if (const auto& fwhm = part.metadata.fwhm)
         for (const double nm : cube.wavelengths_nm)
             cube.fwhm_nm.push_back(fwhm->held_at(nm));
-    add_fields(choice, cube, outcome.lost);
+    std::vector<std::string> lost;
+    add_fields(choice, cube, lost);
     const image::Window whole{0, 0, part.data_window.width() - 1, part.data_window.height() - 1};
     if (part.data_window != whole || part.display_window != whole)
-        outcome.lost.emplace_back("the place of the data window in the display window");
+        lost.emplace_back("the place of the data window in the display window");
     if (choice.set.family != Family::T && choice.set.family != Family::S0)
-        outcome.lost.push_back("that the bands are the Stokes component " +
-                               std::string(family_name(choice.set.family)));
+        lost.push_back("that the bands are the Stokes component " +
+                       std::string(family_name(choice.set.family)));
     if (!choice.set.root.empty())
-        outcome.lost.push_back("the name \"" + choice.set.root + "\" of the set");
+        lost.push_back("the name \"" + choice.set.root + "\" of the set");
     if (std::any_of(choice.channels.begin(), choice.channels.end(),
                     [&part](std::size_t c) { return part.channels[c].type == SampleType::Uint; }))
-        outcome.lost.emplace_back("digits of unsigned integers beyond the 24 bits of a float");
+        lost.emplace_back("digits of unsigned integers beyond the 24 bits of a float");
+    add_unique(std::move(lost), outcome.lost);
     outcome.types = {"float"};
-
-    OSIO_TRY(const auto source,
-             choice.image->make_block_source(choice.part_index, choice.planes(), image::Grain::Block));
-    OSIO_TRY(const auto writer, envi::EnviWriter::create(request.output, std::move(cube)));
-    outcome.data = writer->data_path();
-    const auto start = [&] { return std::make_unique<Floats>(*writer, choice.channels.size()); };
-    OSIO_CHECK_OK(
-        visit_blocks(*source, {part.data_window.min_y, part.data_window.max_y}, runner, start, progress));
-    return writer->finish();
+    OSIO_TRY(auto writer, envi::EnviWriter::create(request.output, std::move(cube)));
+    return std::make_unique<EnviSink>(std::move(writer), choice.channels.size());
 }
 
 }  // namespace osio::convert

@@ -9,6 +9,8 @@
 #include <OpenEXR/ImfIntAttribute.h>
 #include <OpenEXR/ImfStringAttribute.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -87,6 +89,12 @@ void insert_field(const Field& field, Imf::Header& header) {
     const std::string name = std::string(kAttributePrefix) + field.key;
     if (name.size() <= image::kMostNameBytes && name.find('\0') == std::string::npos)
         header.insert(name, Imf::StringAttribute(field.value));
+}
+
+bool counts_bands(std::string_view key) {
+    constexpr std::array<std::string_view, 4> kByBand{
+        "default bands", "band names", "data reflectance gain values", "data reflectance offset values"};
+    return std::find(kByBand.begin(), kByBand.end(), key) != kByBand.end();
 }
 
 }  // namespace osio::envi

@@ -21,4 +21,7 @@ inline constexpr std::string_view kAttributePrefix = "envi:";
 /// Inserts a field as the attribute it came from, `exr TYPE NAME` under its name and type, all others as strings.
 void insert_field(const Field& field, Imf::Header& header);
 
+/// True for keys whose lists count the bands as they are: of other bands they are not true.
+[[nodiscard]] bool counts_bands(std::string_view key);
+
 }  // namespace osio::envi

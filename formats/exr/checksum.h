@@ -49,7 +49,7 @@ struct Checksum {
 void reserve_checksum(std::size_t chunk_count, Imf::Header& header);
 
 /// Computes the checksums of a complete file, one a part, and writes them into their places. `path` is a
-/// file of scanline parts that reserve_checksum() prepared.
+/// file of flat parts, of scanlines or tiles of one level, that reserve_checksum() prepared.
 [[nodiscard]] Result<void> write_checksum(const std::string& path);
 
 }  // namespace osio::exr

@@ -16,6 +16,10 @@ tl::unexpected<Error> too_much(const std::string& what, std::uint64_t found, std
                                         " bytes, more than the limit of " + std::to_string(most));
 }
 
+std::uint64_t chunks_of(std::int64_t pixels, std::uint64_t step) {
+    return (static_cast<std::uint64_t>(pixels) + step - 1) / step;
+}
+
 }  // namespace
 
 int lines_of_chunk(Imf::Compression compression) {
@@ -63,16 +67,23 @@ ChunkSize chunk_size(const image::Part& part) {
 
 std::uint64_t full_resolution_chunks(const image::Part& part) {
     const ChunkSize size = chunk_size(part);
-    const auto count = [](int pixels, std::uint64_t step) {
-        return (static_cast<std::uint64_t>(pixels) + step - 1) / step;
-    };
-    return count(part.data_window.width(), size.width) * count(part.data_window.height(), size.height);
+    return chunks_of(part.data_window.width(), size.width) *
+           chunks_of(part.data_window.height(), size.height);
 }
 
-std::uint64_t scanline_chunks(const Imf::Header& header) {
-    const auto rows = std::int64_t{header.dataWindow().max.y} - header.dataWindow().min.y + 1;
-    const int lines = lines_of_chunk(header.compression());
-    return static_cast<std::uint64_t>((rows + lines - 1) / lines);
+ChunkSize header_chunk(const Imf::Header& header) {
+    if (header.hasTileDescription())
+        return {header.tileDescription().xSize, header.tileDescription().ySize};
+    const Imath::Box2i& window = header.dataWindow();
+    return {static_cast<std::uint64_t>(std::int64_t{window.max.x} - window.min.x + 1),
+            static_cast<std::uint64_t>(lines_of_chunk(header.compression()))};
+}
+
+std::uint64_t header_chunks(const Imf::Header& header) {
+    const Imath::Box2i& window = header.dataWindow();
+    const ChunkSize size = header_chunk(header);
+    return chunks_of(std::int64_t{window.max.x} - window.min.x + 1, size.width) *
+           chunks_of(std::int64_t{window.max.y} - window.min.y + 1, size.height);
 }
 
 Result<void> check_limits(const image::Part& part, std::uint64_t file_bytes) {

@@ -31,8 +31,9 @@ struct ChunkSize {
 /// Chunks of the part's full resolution, which come first in its table.
 [[nodiscard]] std::uint64_t full_resolution_chunks(const image::Part& part);
 
-/// The same for a scanline header of its own.
-[[nodiscard]] std::uint64_t scanline_chunks(const Imf::Header& header);
+/// The same for a header of its own, of scanlines or of tiles of one level.
+[[nodiscard]] ChunkSize header_chunk(const Imf::Header& header);
+[[nodiscard]] std::uint64_t header_chunks(const Imf::Header& header);
 
 /// Refuses (Damaged) windows, tiles and sums of bytes beyond our limits, and more than a file of
 /// `file_bytes` can hold.

@@ -5,6 +5,7 @@
 #include <formats/exr/exr_writer.h>
 #include <formats/exr/header_output.h>
 #include <formats/exr/reserved_text.h>
+#include <formats/exr/tile_rows.h>
 #include <formats/exr/zip_output.h>
 #include <formats/files/checked_file.h>
 #include <formats/files/replacement_file.h>
@@ -17,6 +18,8 @@
 #include <OpenEXR/ImfOutputPart.h>
 #include <OpenEXR/ImfPartType.h>
 #include <OpenEXR/ImfThreading.h>
+#include <OpenEXR/ImfTiledOutputFile.h>
+#include <OpenEXR/ImfTiledOutputPart.h>
 
 #include <algorithm>
 #include <atomic>
@@ -65,10 +68,14 @@ struct ExrWriter::State {
         explicit Part(const OutputPart& part)
             : channels(part.channels), next_row(part.header.dataWindow().min.y),
               min_x(part.header.dataWindow().min.x), width(part.header.dataWindow().max.x - min_x + 1),
-              rows_left(part.header.dataWindow().max.y - next_row + 1) {}
+              rows_left(part.header.dataWindow().max.y - next_row + 1) {
+            if (part.header.hasTileDescription())
+                tiles.emplace(part.header, part.channels);
+        }
 
         std::vector<OutputChannel> channels;
-        std::optional<ZipOutput> zip;  ///< nothing where OpenEXR writes the chunks
+        std::optional<ZipOutput> zip;   ///< nothing where OpenEXR writes the chunks
+        std::optional<TileRows> tiles;  ///< of a tiled part, where it does
         int next_row;
         int min_x;
         int width;
@@ -84,6 +91,8 @@ struct ExrWriter::State {
         }
         if (std::all_of(headers.begin(), headers.end(), ZipOutput::can_write))
             start_zip(output_parts, headers);
+        else if (headers.size() == 1 && headers.front().hasTileDescription())
+            tiled_output.emplace(stream, headers.front(), Imf::globalThreadCount());
         else if (headers.size() == 1)
             output.emplace(stream, headers.front(), Imf::globalThreadCount());
         else
@@ -122,22 +131,48 @@ struct ExrWriter::State {
     }
 
     /// Rows at a part's turn, packed by OpenEXR.
-    void write_rows(std::size_t index, const Imf::FrameBuffer& buffer, int row_count) {
+    void write_rows(std::size_t index, std::span<const ChannelRows> rows, int row_count) {
+        Part& part = parts[index];
+        if (part.tiles) {
+            part.tiles->add(rows, row_count, [&](int tile_row, const Imf::FrameBuffer& pixels) {
+                write_tiles(index, tile_row, pixels);
+            });
+            return;
+        }
+        Imf::FrameBuffer buffer;
+        for (std::size_t c = 0; c < rows.size(); ++c)
+            buffer.insert(part.channels[c].name,
+                          Imf::Slice::Make(pixel_type(part.channels[c].type), rows[c].data,
+                                           Imath::V2i(part.min_x, part.next_row), part.width, row_count,
+                                           static_cast<std::size_t>(rows[c].pixel_stride_bytes),
+                                           static_cast<std::size_t>(rows[c].row_stride_bytes)));
         if (output) {
             output->setFrameBuffer(buffer);
             output->writePixels(row_count);
             return;
         }
-        Imf::OutputPart part(*outputs, static_cast<int>(index));
-        part.setFrameBuffer(buffer);
-        part.writePixels(row_count);
+        Imf::OutputPart several(*outputs, static_cast<int>(index));
+        several.setFrameBuffer(buffer);
+        several.writePixels(row_count);
+    }
+
+    void write_tiles(std::size_t index, int tile_row, const Imf::FrameBuffer& pixels) {
+        const auto write = [&](auto& tiled) {
+            tiled.setFrameBuffer(pixels);
+            tiled.writeTiles(0, tiled.numXTiles(0) - 1, tile_row, tile_row, 0);
+        };
+        if (tiled_output)
+            return write(*tiled_output);
+        Imf::TiledOutputPart several(*outputs, static_cast<int>(index));
+        write(several);
     }
 
     files::ReplacementFile file;
     CheckedStream stream;
     std::deque<Part> parts;
-    std::optional<Imf::OutputFile> output;            ///< of one part that is not ours to pack
-    std::optional<Imf::MultiPartOutputFile> outputs;  ///< of several
+    std::optional<Imf::OutputFile> output;             ///< of one part that is not ours to pack
+    std::optional<Imf::TiledOutputFile> tiled_output;  ///< the same of tiles
+    std::optional<Imf::MultiPartOutputFile> outputs;   ///< of several
 
     struct Text {
         std::size_t part;
@@ -185,19 +220,8 @@ class ExrWriter::PlainPacker final : public Packer {
     }
 
     [[nodiscard]] Result<void> write() override {
-        State::Part& part = m_state.parts[m_index];
-        return m_state.guarded(part, m_row_count, [&] {
-            Imf::FrameBuffer buffer;
-            for (std::size_t c = 0; c < m_channels.size(); ++c) {
-                const auto& rows = m_channels[c];
-                buffer.insert(part.channels[c].name,
-                              Imf::Slice::Make(pixel_type(part.channels[c].type), rows.data,
-                                               Imath::V2i(part.min_x, part.next_row), part.width, m_row_count,
-                                               static_cast<std::size_t>(rows.pixel_stride_bytes),
-                                               static_cast<std::size_t>(rows.row_stride_bytes)));
-            }
-            m_state.write_rows(m_index, buffer, m_row_count);
-        });
+        return m_state.guarded(m_state.parts[m_index], m_row_count,
+                               [&] { m_state.write_rows(m_index, m_channels, m_row_count); });
     }
 
   private:
@@ -225,9 +249,9 @@ Result<std::unique_ptr<ExrWriter>> ExrWriter::create(const std::string& path, st
             for (const OutputChannel& channel : part.channels)
                 header.channels().insert(channel.name, Imf::Channel(pixel_type(channel.type)));
             header.lineOrder() = Imf::INCREASING_Y;
-            const std::size_t chunks = scanline_chunks(header);
+            const std::size_t chunks = header_chunks(header);
             if (parts.size() > 1) {
-                header.setType(Imf::SCANLINEIMAGE);
+                header.setType(header.hasTileDescription() ? Imf::TILEDIMAGE : Imf::SCANLINEIMAGE);
                 header.setChunkCount(static_cast<int>(chunks));
             }
             reserve_checksum(chunks, header);
@@ -244,8 +268,14 @@ std::unique_ptr<ExrWriter::Packer> ExrWriter::start_packer(std::size_t part) {
     return std::make_unique<PlainPacker>(*m_state, part);
 }
 
-Result<void> ExrWriter::write_rows(int row_count, std::span<const ChannelRows> channels, Runner* runner) {
-    const State::Part& part = m_state->parts.front();
+int ExrWriter::rows_together(std::size_t part) const {
+    const State::Part& state = m_state->parts[part];
+    return state.zip && state.tiles ? state.zip->lines_per_chunk() : 0;
+}
+
+Result<void> ExrWriter::write_rows(int row_count, std::span<const ChannelRows> channels, Runner* runner,
+                                   std::size_t index) {
+    const State::Part& part = m_state->parts[index];
     const int lines = part.zip ? part.zip->lines_per_chunk() : row_count;
     const int first_row = part.next_row, end_row = first_row + row_count;
     const int rows_per_piece = std::max(lines, kFewestRows / lines * lines);
@@ -253,7 +283,7 @@ Result<void> ExrWriter::write_rows(int row_count, std::span<const ChannelRows> c
     const unsigned workers = spread ? runner->worker_count() : 1;
     std::vector<std::unique_ptr<Packer>> packers;
     for (unsigned worker = 0; worker < workers; ++worker)
-        packers.push_back(start_packer());
+        packers.push_back(start_packer(index));
     const auto pack = [&](unsigned worker, int first, int end) {
         std::vector<ChannelRows> rows(channels.begin(), channels.end());
         for (ChannelRows& channel : rows)
@@ -298,7 +328,8 @@ Result<void> ExrWriter::finish(files::Durability durability) {
         if (part.zip)
             OSIO_CHECK_OK(state.guarded([&] { part.zip->finish(); }));
     }
-    state.output.reset();   // writes the table of chunks
+    state.output.reset();  // writes the table of chunks
+    state.tiled_output.reset();
     state.outputs.reset();  // writes the tables
     if (state.stream.file().close() != 0)
         return fail(ErrorCode::Io, "cannot be written: " + state.stream.file().failure(),

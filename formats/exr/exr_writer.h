@@ -21,14 +21,14 @@ namespace osio::exr {
 /// programs; in a plugin the host says.
 void set_compression_threads(unsigned count);
 
-/// A scanline part of a file.
+/// A flat part of a file: scanlines, or tiles of one level where the header has a tile description.
 struct OutputPart {
-    Imf::Header header;  ///< windows, compression and attributes; of several parts also a name
+    Imf::Header header;  ///< windows, compression, tiles and attributes; of several parts also a name
     std::vector<OutputChannel> channels;
 };
 
-/// Writes a scanline OpenEXR file of one or several parts, each part's rows from top to bottom, into a temporary beside the target that
-/// takes the target's place in finish(). Until then, and where anything fails, the old file stays
+/// Writes an OpenEXR file of one or several flat parts, each part's rows from top to bottom, into a temporary beside
+/// the target that takes the target's place in finish(). Until then, and where anything fails, the old file stays
 /// and the temporary goes away. ZIP and ZIPS are packed by libdeflate, at the header's level, on the
 /// caller's threads; the others by OpenEXR.
 class ExrWriter {
@@ -60,10 +60,13 @@ class ExrWriter {
 
     [[nodiscard]] std::unique_ptr<Packer> start_packer(std::size_t part = 0);
 
-    /// The next rows of the first part; one ChannelRows for each channel, in the order given to create(). With a runner
+    /// Of tiles that are packed by packers: their height, which is how many rows a packer packs alone; else 0.
+    [[nodiscard]] int rows_together(std::size_t part = 0) const;
+
+    /// The next rows of a part; one ChannelRows for each channel, in the order given to create(). With a runner
     /// the work is spread over its workers.
     [[nodiscard]] Result<void> write_rows(int row_count, std::span<const ChannelRows> channels,
-                                          Runner* runner = nullptr);
+                                          Runner* runner = nullptr, std::size_t part = 0);
 
     /// The text of an attribute that reserve_text() made in a part's header; finish() writes it.
     void set_text(std::size_t part, std::string name, std::string text);

@@ -30,14 +30,16 @@ bool has_long_names(const Imf::Header& header) {
 void write_headers(Imf::OStream& stream, std::span<const Imf::Header> headers) {
     const bool several = headers.size() > 1;
     for (const Imf::Header& header : headers)
-        header.sanityCheck(false, several);
+        header.sanityCheck(header.hasTileDescription(), several);
     write_number(stream, std::uint32_t{Imf::MAGIC});
-    int flags = several ? Imf::MULTI_PART_FILE_FLAG : 0;
+    int flags = several                                ? Imf::MULTI_PART_FILE_FLAG
+                : headers.front().hasTileDescription() ? Imf::TILED_FLAG
+                                                       : 0;
     if (std::any_of(headers.begin(), headers.end(), has_long_names))
         flags |= Imf::LONG_NAMES_FLAG;
     write_number(stream, static_cast<std::uint32_t>(Imf::EXR_VERSION | flags));
     for (const Imf::Header& header : headers)
-        header.writeTo(stream, false);
+        header.writeTo(stream, header.hasTileDescription());
     if (several)
         write_number(stream, std::uint8_t{0});
 }

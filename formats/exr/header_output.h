@@ -20,7 +20,7 @@ void write_number(Imf::OStream& stream, Number value) {
     stream.write(bytes.data(), static_cast<int>(bytes.size()));
 }
 
-/// Magic number, version and flags, and the headers of scanline parts; the tables of chunks follow.
+/// Magic number, version and flags, and the headers of parts, of scanlines or tiles; the tables of chunks follow.
 /// Headers of several parts must have name, type and number of chunks. Throws what the stream throws,
 /// and std::exception for a header that OpenEXR does not allow.
 void write_headers(Imf::OStream& stream, std::span<const Imf::Header> headers);

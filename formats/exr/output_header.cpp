@@ -15,10 +15,6 @@ namespace osio::exr {
 
 namespace {
 
-Imath::V2f v2f(const Chromaticity& c) {
-    return {static_cast<float>(c.x), static_cast<float>(c.y)};
-}
-
 /// "osio $1f2e, from ACES2065-1 by processor $3d4c".
 std::string config_text(const TransformSource& source) {
     const std::string name = source.config_name.empty() ? source.config_file : source.config_name;
@@ -65,8 +61,7 @@ Imf::Header collapsed_header(const image::CollapseJob& job) {
                    Imf::StringAttribute(*part.metadata.handedness));
     if (has_primaries(space.kind) && !space.transform)
         out.insert(image::attribute::kChromaticities,
-                   Imf::ChromaticitiesAttribute(Imf::Chromaticities(v2f(space.red), v2f(space.green),
-                                                                    v2f(space.blue), v2f(space.white))));
+                   Imf::ChromaticitiesAttribute(image::chromaticities_of(space)));
     if (!space.color_space.empty())
         out.insert(image::attribute::kColorSpace, Imf::StringAttribute(space.color_space));
     out.insert(image::attribute::kRecipe, Imf::StringAttribute(recipe_text(plan.request)));

@@ -14,6 +14,12 @@ struct OutputChannel {
     SampleType type = SampleType::Float;
 };
 
+/// Pixels across and down.
+struct TileSize {
+    int width = 0;
+    int height = 0;
+};
+
 /// Where a channel's samples lie for some rows; samples have the type of the channel.
 struct ChannelRows {
     const std::byte* data = nullptr;  ///< first sample of the first row

@@ -3,6 +3,7 @@
 
 #include <osio/layout/channel_name.h>
 #include <osio/layout/spectral_metadata.h>
+#include <osio/spectra/spectrum.h>
 
 #include <OpenEXR/ImfStringAttribute.h>
 
@@ -25,6 +26,18 @@ void insert_default(std::string_view name, std::string_view value, Imf::Header& 
         insert_text(name, value, header);
 }
 
+/// A curve's text in the spelling that others read; text that is no curve as it is.
+std::string respelt(const std::string& text) {
+    const SpectrumText parsed = parse_spectrum_text(text);
+    return parsed.rejected.empty() && !parsed.spectrum.values.empty() ? format_spectrum_text(parsed.spectrum)
+                                                                      : text;
+}
+
+void respell(std::string_view name, Imf::Header& header) {
+    if (const auto* text = header.findTypedAttribute<Imf::StringAttribute>(std::string(name)))
+        insert_text(name, respelt(text->value()), header);
+}
+
 void rename_sensitivities(const std::vector<std::string>& written, Imf::Header& header) {
     std::vector<std::pair<std::string, std::string>> curves;
     for (auto a = header.begin(); a != header.end(); ++a)
@@ -36,7 +49,7 @@ void rename_sensitivities(const std::vector<std::string>& written, Imf::Header& 
         const auto band = parse_channel_name(name, DecimalMark::Comma);
         for (const std::string& channel : written)
             if (parse_channel_name(channel, DecimalMark::Comma) == band)
-                insert_text(channel, value, header);
+                insert_text(channel, respelt(value), header);
     }
 }
 
@@ -47,6 +60,8 @@ void complete_spectral_header(const ChannelLayout& layout, Imf::Header& header) 
         return std::any_of(layout.sets.begin(), layout.sets.end(), fits);
     };
     rename_sensitivities(layout.channel_names, header);
+    respell(attribute::kLensTransmission, header);
+    respell(attribute::kCameraResponse, header);
     insert_text(attribute::kLayoutVersion, kWrittenLayoutVersion, header);
     if (any([](const SpectralSet& s) { return s.quantity() == Quantity::Radiance; }))
         insert_default(attribute::kEmissiveUnits, kWrittenEmissiveUnits, header);

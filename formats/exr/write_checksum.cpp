@@ -3,14 +3,20 @@
 #include <formats/exr/header_bytes.h>
 #include <formats/files/raw_file.h>
 
+#include <algorithm>
+
 namespace osio::exr {
 
 namespace {
 
-/// The sums of a part's chunks, whose table starts at `table_at`.
-Result<void> sum_chunks(const files::RawFile& file, bool multi_part, std::uint64_t table_at, Checksum& sum) {
-    // A part's number where there are several, a row, the size.
-    const std::size_t header_bytes = multi_part ? 12 : 8;
+bool is_tiled(const RawHeader& header) {
+    return std::any_of(header.begin(), header.end(),
+                       [](const RawAttribute& attribute) { return attribute.name == "tiles"; });
+}
+
+/// The sums of a part's chunks, whose table starts at `table_at` and whose own headers have `header_bytes`.
+Result<void> sum_chunks(const files::RawFile& file, std::size_t header_bytes, std::uint64_t table_at,
+                        Checksum& sum) {
     std::string table, chunk;
     OSIO_CHECK_OK(file.read(table_at, sum.chunks.size() * 8, table));
     for (std::size_t i = 0; i < sum.chunks.size(); ++i) {
@@ -34,7 +40,9 @@ Result<void> write_checksum(const std::string& path) {
         auto sum = place == nullptr ? std::nullopt : Checksum::parse(place->value);
         if (!sum)
             return fail(ErrorCode::Io, "was not written as it was meant: no place for the checksum");
-        OSIO_CHECK_OK(sum_chunks(file, headers.multi_part, table_at, *sum));
+        // A part's number where there are several; a row, or a tile's place and level; the size.
+        const std::size_t header_bytes = (headers.multi_part ? 4U : 0U) + (is_tiled(header) ? 16U : 4U) + 4U;
+        OSIO_CHECK_OK(sum_chunks(file, header_bytes, table_at, *sum));
         table_at += sum->chunks.size() * 8;
         sum->file_bytes = file.size();
         sum->header = header_checksum(headers.version, header);

@@ -15,11 +15,12 @@
 
 namespace osio::exr {
 
-/// Rows on their way into a file: whole chunks packed, and samples of chunks that other rows begin or
-/// end. Reused from block to block.
+/// Rows on their way into a file: whole chunks packed, and samples of chunks (or rows of tiles) that other rows begin
+/// or end. Reused from block to block.
 struct PackedRows {
     struct Chunk {
         int first_row = 0;
+        int column = 0;  ///< of a tile
         std::size_t bytes = 0;
     };
 
@@ -29,10 +30,12 @@ struct PackedRows {
     std::vector<std::uint8_t> packed;  ///< of the chunks, one after the other
     std::vector<std::uint8_t> tail;    ///< samples that begin a chunk
     int tail_rows = 0;
-    std::vector<std::uint8_t> samples;  ///< of the chunk in work
+    std::vector<std::uint8_t> samples;  ///< of the chunk or row of tiles in work
+    std::vector<std::uint8_t> tile;     ///< of the tile in work
 };
 
-/// The chunks of a scanline part in ZIP or ZIPS, and their table. Packing is for any thread; appending is
+/// The chunks of a part in ZIP or ZIPS, scanlines or tiles of one level, and their table. Rows of a chunk, or of a row
+/// of tiles, are gathered until they are complete. Packing is for any thread; appending is
 /// in the order of rows. Throws std::runtime_error where the stream does.
 class ZipOutput {
   public:
@@ -59,13 +62,19 @@ class ZipOutput {
     /// libdeflate's level for the header's.
     [[nodiscard]] int level() const { return m_level; }
 
+    /// Of tiles their height.
     [[nodiscard]] int lines_per_chunk() const { return m_lines; }
 
   private:
     /// One past the last row of the chunk that holds `row`.
     [[nodiscard]] int chunk_end(int row) const;
     void gather(int row, std::span<const ChannelRows> channels, int first_row, std::uint8_t* out) const;
-    void write_chunk(int first_row, std::span<const std::uint8_t> packed);
+    /// The lines of a chunk or a row of tiles as packed chunks, added to `chunks` and `packed`.
+    void encode(int first_row, std::span<const std::uint8_t> lines, ZipEncoder& encoder,
+                std::vector<std::uint8_t>& tile, std::vector<PackedRows::Chunk>& chunks,
+                std::vector<std::uint8_t>& packed) const;
+    void gather_tile(int column, std::span<const std::uint8_t> lines, std::vector<std::uint8_t>& tile) const;
+    void write_chunks(std::span<const PackedRows::Chunk> chunks, std::span<const std::uint8_t> packed);
 
     Imf::OStream& m_stream;
     std::optional<std::uint32_t> m_part;
@@ -76,10 +85,12 @@ class ZipOutput {
     int m_lines;
     int m_level;
     std::size_t m_width;
+    std::size_t m_tile_width = 0;  ///< 0: scanlines
+    int m_columns = 1;
     std::size_t m_line_bytes = 0;
     std::uint64_t m_table_position = 0;
     std::vector<std::uint64_t> m_table;
-    std::vector<std::uint8_t> m_open;  ///< samples of a chunk that is not complete
+    std::vector<std::uint8_t> m_open;  ///< samples of a chunk or row of tiles that is not complete
     int m_open_rows = 0;
     int m_next_row;
     ZipEncoder m_encoder;

@@ -10,6 +10,7 @@
 #include <osio/collapse/selection.h>
 #include <osio/collapse/text_loader.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -187,16 +188,53 @@ Result<void> SpectralExrInput::read(RowRange rows, std::byte* out) {
     if (rows.last > around.last || (rows.first == around.first && rows.last == around.last))
         return image.read_rows(rows, out, runner);
 
+    OSIO_CHECK_OK(fill_cache(around));
     const std::size_t bytes = image.row_bytes();
-    if (m_cache.subimage != m_current || m_cache.rows.first != around.first) {
-        m_cache.subimage = -1;
-        m_cache.pixels.resize(static_cast<std::size_t>(around.last - around.first + 1) * bytes);
-        OSIO_CHECK_OK(image.read_rows(around, m_cache.pixels.data(), runner));
-        m_cache.subimage = m_current;
-        m_cache.rows = around;
-    }
     std::memcpy(out, m_cache.pixels.data() + static_cast<std::size_t>(rows.first - around.first) * bytes,
                 static_cast<std::size_t>(rows.last - rows.first + 1) * bytes);
+    return {};
+}
+
+Result<void> SpectralExrInput::fill_cache(RowRange around) {
+    if (m_cache.subimage == m_current && m_cache.rows.first == around.first)
+        return {};
+    Subimage& image = *m_subimages[static_cast<std::size_t>(m_current)];
+    HostRunner runner(threads(), image.block_count());
+    m_cache.subimage = -1;
+    m_cache.pixels.resize(static_cast<std::size_t>(around.last - around.first + 1) * image.row_bytes());
+    OSIO_CHECK_OK(image.read_rows(around, m_cache.pixels.data(), runner));
+    m_cache.subimage = m_current;
+    m_cache.rows = around;
+    return {};
+}
+
+bool SpectralExrInput::read_native_tile(int subimage, int miplevel, int x, int y, int, void* data) {
+    const lock_guard lock(*this);
+    if (!seek_subimage(subimage, miplevel))
+        return false;
+    if (m_spec.tile_width <= 0 || x < m_spec.x || x >= m_spec.x + m_spec.width ||
+        (x - m_spec.x) % m_spec.tile_width != 0 || (y - m_spec.y) % m_spec.tile_height != 0) {
+        errorfmt("there is no tile at {}, {}", x, y);
+        return false;
+    }
+    const int end = std::min(y + m_spec.tile_height, m_spec.y + m_spec.height);
+    return read_host_rows(*this, m_spec, y, end,
+                          [&](RowRange) { return read_tile(x, y, static_cast<std::byte*>(data)); });
+}
+
+/// Blocks of a tiled part are rows of tiles. Beyond the image a tile keeps what the host had there.
+Result<void> SpectralExrInput::read_tile(int x, int y, std::byte* out) {
+    const Subimage& image = *m_subimages[static_cast<std::size_t>(m_current)];
+    const RowRange around = image.rows_around(y);
+    OSIO_CHECK_OK(fill_cache(around));
+    const std::size_t pixel = m_spec.pixel_bytes(true), row = image.row_bytes();
+    const auto pixels = static_cast<std::size_t>(std::min(m_spec.tile_width, m_spec.x + m_spec.width - x));
+    const std::byte* from = m_cache.pixels.data() + static_cast<std::size_t>(x - m_spec.x) * pixel;
+    for (int line = around.first; line <= around.last; ++line) {
+        std::memcpy(out, from, pixels * pixel);
+        from += row;
+        out += static_cast<std::size_t>(m_spec.tile_width) * pixel;
+    }
     return {};
 }
 

@@ -31,6 +31,7 @@ class SpectralExrInput final : public OIIO::ImageInput {
     bool seek_subimage(int subimage, int miplevel) override;
     bool read_native_scanline(int subimage, int miplevel, int y, int z, void* data) override;
     bool read_native_scanlines(int subimage, int miplevel, int ybegin, int yend, int z, void* data) override;
+    bool read_native_tile(int subimage, int miplevel, int x, int y, int z, void* data) override;
 
   private:
     bool open_with(const std::string& name, OIIO::ImageSpec& spec, const OIIO::ImageSpec* config);
@@ -40,12 +41,14 @@ class SpectralExrInput final : public OIIO::ImageInput {
     Result<void> add_raw_subimages(const std::shared_ptr<const image::SpectralImage>& file,
                                    const CollapseRequest& request);
     Result<void> read(RowRange rows, std::byte* out);
+    Result<void> read_tile(int x, int y, std::byte* out);
+    Result<void> fill_cache(RowRange around);
     bool report(const std::string& name, const Error& error);
 
     std::vector<std::unique_ptr<Subimage>> m_subimages;
     int m_current = -1;
 
-    /// The rows of one block, for hosts that ask for a line at a time.
+    /// The rows of one block, for hosts that ask for a line or a tile at a time.
     struct Cache {
         int subimage = -1;
         RowRange rows;

@@ -4,6 +4,8 @@
 #include <plugins/spectralexr.imageio/spec.h>
 #include <plugins/spectralexr.imageio/subimage.h>
 
+#include <OpenEXR/ImfTileDescription.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -72,6 +74,11 @@ Result<std::unique_ptr<Subimage>> make_raw_subimage(std::shared_ptr<const image:
                                                     std::size_t part, BandNames names, int subimage_count) {
     const image::Part& header = file->parts()[part];
     OIIO::ImageSpec spec = spec_of_windows(header);
+    if (header.tiled) {
+        spec.tile_width = static_cast<int>(header.header.tileDescription().xSize);
+        spec.tile_height = static_cast<int>(header.header.tileDescription().ySize);
+        spec.tile_depth = 1;
+    }
     image::PlaneChannels planes;
     spec.channelnames.clear();
     for (const PresentedChannel& channel : present_channels(header.layout, names)) {

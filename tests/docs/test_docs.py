@@ -141,6 +141,8 @@ class Reference(OsioCase):
         self.names(self.keys_of(self.osiotool_json("collapse", "shot.exr", "o.exr", *words)))
         self.names(self.keys_of(self.osiotool_json("difference", "o.exr", "shot.exr", "--illuminant", "A")))
         self.names(self.keys_of(self.osiotool_json("convert", "shot.exr", "cube.hdr")))
+        self.write_exr("shot.1.exr", self.bands([450, 550]))
+        self.names(self.keys_of(self.osiotool_json("convert", "shot.%d.exr", "out.%d.exr", "--frames", "1")))
         self.names(self.keys_of(self.osiotool_json("photometry", "--illuminant", "A")))
         self.names(self.keys_of(self.osiotool_json("plan", "shot.exr", "--to", "ACEScct", "--config", CONFIG,
                                                    "--illuminant", "A")))
@@ -150,7 +152,8 @@ class Reference(OsioCase):
         self.names(self.keys_of(self.osiotool_json("photometry", "radiance.exr")))
 
     def test_every_option(self):
-        for command in ("info", "audit", "collapse", "plan", "verify", "difference", "photometry", "bake", "weights", "spectrum", "list"):
+        for command in ("info", "audit", "collapse", "plan", "convert", "verify", "difference", "photometry", "bake", "weights",
+                        "spectrum", "trade", "list"):
             text = self.osiotool(command, "--help").stdout
             self.names(set(re.findall(r"^  --?([a-z][a-z-]*)", text, re.M)) - {"h"})
 

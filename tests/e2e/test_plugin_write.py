@@ -84,7 +84,7 @@ class RoundTrip(OsioCase):
     def test_windows_and_attributes(self):
         attributes = [("smpte:TimeCode", oiio.TypeTimeCode, (18356486, 4294967295)), ("owner", "me"),
                       ("PixelAspectRatio", 1.5), ("count", 7), ("spectralLayoutVersion", "1.0"),
-                      ("worldToCamera", oiio.TypeMatrix, tuple(range(16))), ("lensTransmission", "400nm:1;"),
+                      ("worldToCamera", oiio.TypeMatrix, tuple(range(16))), ("lensTransmission", "400nm:1;400nm:1"),
                       ("words", oiio.TypeDesc("string[2]"), ("a", "b")), ("EV", 1.25),
                       ("weights", oiio.TypeDesc("float[3]"), (1, 2, 3)), ("rate", oiio.TypeRational,
                       (24000, 1001)), ("T.400,000000nm", "390nm:0;400nm:1;")]
@@ -98,7 +98,7 @@ class RoundTrip(OsioCase):
             if attribute.name in ("T.400,000000nm", "Software", "Exif:ImageHistory", "DateTime"):
                 continue
             self.assertEqual(kept.get(attribute.name), str(attribute.value), attribute.name)
-        self.assertEqual(kept["T.400nm"], "390nm:0;400nm:1;")  # follows its band's name
+        self.assertEqual(kept["T.400nm"], "390nm:0;400nm:1;400nm:1")  # follows its band's name
         self.assertNotIn("T.400,000000nm", kept)
 
     def test_layout_attributes_are_there_where_they_belong(self):
@@ -211,6 +211,112 @@ class Preview(OsioCase):
         self.assertIn("R", self.exr_channels("in.spexr"))
 
 
+class Regenerated(OsioCase):
+    """The hint spectral:preview makes R, G, B of the bands."""
+
+    def same_as_collapse(self, name, *words):
+        self.osiotool("collapse", name, "rgb.exr", "--to", "lin_rec709", *words)
+        picture, expected = self.channels_of(name), self.channels_of("rgb.exr")
+        for channel in "RGB":
+            np.testing.assert_array_equal(picture[channel].view(np.uint32), expected[channel].view(np.uint32))
+
+    def test_edited_bands_have_a_picture_of_their_own(self):
+        bands = self.bands(GRID, (40, 50))
+        self.write_exr("in.spexr", dict(bands, **{c: bands["T.400nm"] for c in "RGB"}, A=np.ones((40, 50))))
+        for words in ((), ("--tile", "16", "16"), ("--compression", "dwaa"), ("-d", "half")):
+            result = self.run_program("oiiotool", "in.spexr", "--mulc", "0.5", "--powc", "2", "--attrib", "spectral:preview",
+                                      "D50", *words, "-o", "out.spexr")
+            self.assertEqual((result.returncode, result.stderr), (0, ""))
+            spec = self.read("out.spexr")[0]
+            self.assertEqual(spec.get_string_attribute("spectral:preview"), "")
+            self.assertIn("illuminant=D50", spec.get_string_attribute("spectral:previewRecipe"))
+            if "dwaa" not in words and "half" not in words:
+                self.same_as_collapse("out.spexr", "--illuminant", "D50")
+        # It is a preview as any other: kept where nothing changed, left out where something did.
+        self.check("oiiotool", "out.spexr", "-o", "kept.spexr")
+        self.assertIn("R", self.exr_channels("kept.spexr"))
+        result = self.run_program("oiiotool", "out.spexr", "--powc", "2", "-o", "dropped.spexr")
+        self.assertIn("no longer match", result.stderr)
+        self.assertEqual(self.read("dropped.spexr")[0].get_string_attribute("spectral:previewRecipe"), "")
+
+    def test_bands_that_had_none(self):
+        self.write_exr("in.spexr", self.bands(GRID, prefix="S0"))
+        self.check("oiiotool", "in.spexr", "--attrib", "spectral:preview", "none", "-o", "out.spexr")
+        self.same_as_collapse("out.spexr")
+        result = self.run_program("oiiotool", "in.spexr", "--attrib", "spectral:preview", "D65", "-o", "no.spexr")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertNotIn("no.spexr", self.files())
+
+
+class Parts(OsioCase):
+    """Tiles and several subimages, in and out."""
+
+    def pixels(self, name, **options):
+        return {n: np.ascontiguousarray(p).view(np.uint32) for n, p in self.channels_of(name, **options).items()}
+
+    def assert_same(self, a, b):
+        self.assertEqual(sorted(a), sorted(b))
+        for name in a:
+            np.testing.assert_array_equal(a[name], b[name], name)
+
+    def test_tiles_go_out_and_come_in(self):
+        self.write_exr("in.spexr", dict(self.bands(GRID, (70, 45)), A=np.full((70, 45), 0.5)), origin=(-4, 9))
+        for tile in ((16, 16), (64, 8), (128, 128)):
+            for compression in ("none", "rle", "zips", "zip", "piz", "pxr24", "b44", "b44a", "dwaa", "dwab"):
+                self.check("oiiotool", "in.spexr", "--compression", compression, "--tile", *tile, "-o", "out.spexr")
+                self.assertEqual(self.format_of("out.spexr"), "spectralexr")
+                spec = self.read("out.spexr")[0]
+                self.assertEqual((spec.tile_width, spec.tile_height), tile)
+                if compression in ("none", "rle", "zips", "zip", "piz"):
+                    self.assert_same(self.pixels("out.spexr"), self.pixels("in.spexr"))
+                    shutil.copy(self.path("out.spexr"), self.path("out.exr"))
+                    layout = {n.replace(".5nm", ",5nm"): p for n, p in self.pixels("in.spexr").items()}
+                    self.assert_same(self.pixels("out.exr"), layout)
+        self.assertIn("with a checksum", self.osiotool("verify", "out.spexr").stdout)
+        image = oiio.ImageInput.open(self.path("out.spexr"))
+        tile = image.read_tile(-4, 9, 0)
+        self.assertEqual(tile.shape[:2], (128, 128))
+        self.assertIsNone(image.read_tile(-3, 9, 0))
+        self.assertIn("there is no tile at -3, 9", image.geterror())
+
+    def test_a_tiled_file_of_openexr_is_tiled_here_too(self):
+        self.write_exr("in.exr", self.bands(GRID, (50, 41)), tile=32, types=HALF)
+        shutil.copy(self.path("in.exr"), self.path("in.spexr"))
+        self.assertEqual(self.read("in.spexr")[0].tile_width, 32)
+        self.assert_same(self.pixels("in.spexr"), self.pixels("in.exr"))
+        self.check("oiiotool", "in.spexr", "--resize", "20x20", "-o", "small.spexr")
+        self.check("oiiotool", "in.spexr", "--scanline", "-o", "lines.spexr")
+        self.assertEqual(self.read("lines.spexr")[0].tile_width, 0)
+        self.assert_same(self.pixels("lines.spexr"), self.pixels("in.exr"))
+
+    def test_subimages_become_parts(self):
+        first = dict(self.bands(GRID, (20, 30)), A=np.ones((20, 30)))
+        second = self.bands([500.5, 600], (20, 30), prefix="S0")
+        self.write_exr("a.spexr", first, attributes=[("oiio:subimagename", "left")])
+        self.write_exr("b.spexr", second, types=HALF)
+        self.write_exr("c.exr", {c: np.ones((20, 30)) for c in "RGB"})
+        for words in ((), ("--compression", "piz"), ("--tile", "8", "8")):
+            self.check("oiiotool", "c.exr", "a.spexr", "--siappend", "b.spexr", "--siappend", *words, "-o", "out.spexr")
+            info = self.osiotool_json("info", "out.spexr")["parts"]
+            self.assertEqual([len(p["sets"]) for p in info], [0, 1, 1])
+            self.assert_same(self.pixels("out.spexr", subimage=1), self.pixels("a.spexr"))
+            self.assert_same(self.pixels("out.spexr", subimage=2), self.pixels("b.spexr"))
+            self.assertEqual(set(self.exr_channels("out.spexr")), {"R", "G", "B", "A", "S0.500,5nm", "S0.600nm"}
+                             | {f"T.{nm}nm" for nm in GRID})
+            self.assertIn("with a checksum", self.osiotool("verify", "out.spexr").stdout)
+        self.check("oiiotool", "out.spexr", "-a", "-o", "again.spexr")
+        self.assertEqual(len(self.osiotool_json("info", "again.spexr")["parts"]), 3)
+
+    def test_a_stale_preview_goes_from_one_of_several(self):
+        bands = self.bands(GRID, (20, 30))
+        self.write_exr("a.spexr", dict(bands, **{c: np.random.default_rng(4).random((20, 30)) for c in "RGB"}))
+        self.write_exr("b.spexr", bands)
+        result = self.run_program("oiiotool", "a.spexr", "--powc", "2", "b.spexr", "--siappend", "-o", "out.spexr")
+        self.assertIn("no longer match", result.stderr)
+        self.assertNotIn("R", self.exr_channels("out.spexr"))
+        self.assert_same(self.pixels("out.spexr", subimage=1), self.pixels("b.spexr"))
+
+
 class Failure(OsioCase):
     """Clear words, and the old file stays."""
 
@@ -240,18 +346,43 @@ class Failure(OsioCase):
 
     def test_what_is_not_supported_is_not_claimed(self):
         output = oiio.ImageOutput.create("spectralexr")
-        for feature in ("tiles", "mipmap", "multiimage", "volumes", "rectangles", "random_access", "deepdata",
+        for feature in ("mipmap", "appendsubimage", "volumes", "rectangles", "random_access", "deepdata",
                         "rewrite", "procedural", "ioproxy"):
             self.assertFalse(output.supports(feature), feature)
         for feature in ("alpha", "nchannels", "channelformats", "displaywindow", "origin",
-                        "negativeorigin", "arbitrary_metadata"):
+                        "negativeorigin", "arbitrary_metadata", "tiles", "multiimage"):
             self.assertTrue(output.supports(feature), feature)
 
-    def test_several_subimages_write_the_first(self):
-        self.write_exr("a.spexr", {"T.500nm": np.ones((2, 2))})
-        self.write_exr("b.spexr", {"T.600nm": np.ones((2, 2))})
-        result = self.run_program("oiiotool", "a.spexr", "b.spexr", "--siappend", "-o", "out.spexr")
-        self.assertEqual(set(self.exr_channels("out.spexr")), {"T.500nm"}, result.stderr)
+    def test_subimages_without_bands_are_refused(self):
+        for name in ("a.exr", "b.exr"):
+            self.write_exr(name, {c: np.ones((2, 2)) for c in "RGB"})
+        result = self.run_program("oiiotool", "a.exr", "b.exr", "--siappend", "-o", "out.spexr")
+        self.assertNotEqual(result.returncode, 0)
+        self.assertIn("none of 2 subimages has a band", result.stdout + result.stderr)
+        self.assertEqual(self.files(), ["a.exr", "b.exr"])
+
+    def test_subimages_that_never_come(self):
+        spec = oiio.ImageSpec(4, 4, 1, FLOAT)
+        spec.channelnames = ("T.500nm",)
+        output = oiio.ImageOutput.create("spectralexr")
+        self.assertTrue(output.open(self.path("out.spexr"), (spec, spec)), output.geterror())
+        self.assertTrue(output.write_image(np.ones((4, 4, 1), np.float32)))
+        self.assertFalse(output.close())
+        self.assertIn("4 rows were never written", output.geterror())
+        self.assertEqual(self.files(), [])
+
+    def test_tiles_out_of_order(self):
+        spec = oiio.ImageSpec(8, 8, 1, FLOAT)
+        spec.channelnames = ("T.500nm",)
+        spec.tile_width = spec.tile_height = 4
+        output = oiio.ImageOutput.create("spectralexr")
+        self.assertTrue(output.open(self.path("out.spexr"), spec))
+        tile = np.ones((4, 4, 1), np.float32)
+        self.assertTrue(output.write_tile(0, 0, 0, tile))
+        self.assertFalse(output.write_tile(0, 4, 0, tile))
+        self.assertIn("expected the one at 4, 0 next", output.geterror())
+        self.assertFalse(output.close())
+        self.assertEqual(self.files(), [])
 
     def test_a_folder_that_cannot_be_written(self):
         buffer = oiio.ImageBuf(oiio.ImageSpec(4, 4, 1, FLOAT))

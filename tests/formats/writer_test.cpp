@@ -2,6 +2,7 @@
 #include <tools/osiotool/thread_runner.h>
 
 #include <formats/exr/checksum.h>
+#include <formats/exr/chunk_map.h>
 #include <formats/exr/exr_file.h>
 #include <formats/exr/exr_writer.h>
 #include <formats/files/replacement_file.h>
@@ -14,6 +15,7 @@
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfStringAttribute.h>
+#include <OpenEXR/ImfTileDescription.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -212,6 +214,73 @@ TEST(ExrWriter, ZipFilesAreThoseOfOpenExr) {
                 EXPECT_EQ(bare.substr(table + 8 * chunks), expected.substr(table + 8 * chunks));
             }
         }
+}
+
+/// Tiles of any size, whatever rows come at a time, packed by ourselves or by OpenEXR: OpenEXR reads the samples that
+/// were given, our reader does too, and every chunk has its checksum.
+TEST(ExrWriter, TilesAreReadByOpenExr) {
+    const TestFolder folder;
+    const std::string path = folder.path("a.exr");
+    tool::ThreadRunner threads(3);
+    for (const auto compression : {Imf::ZIP_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::NO_COMPRESSION,
+                                   Imf::RLE_COMPRESSION, Imf::PIZ_COMPRESSION})
+        for (const auto [tile_width, tile_height] :
+             {std::pair{16U, 8U}, {7U, 70U}, {64U, 64U}, {37U, 1U}, {200U, 300U}}) {
+            Picture picture(compression, tile_width == 16);
+            picture.header.setTileDescription(Imf::TileDescription(tile_width, tile_height));
+            std::string first_way;
+            for (const std::size_t step : {1U, 9U, 16U, 70U})
+                for (Runner* runner : {static_cast<Runner*>(nullptr), static_cast<Runner*>(&threads)}) {
+                    auto writer = ExrWriter::create(path, picture.header, picture.channels).value();
+                    for (std::size_t row = 0; row < picture.height; row += step) {
+                        const std::size_t count = std::min(step, picture.height - row);
+                        ASSERT_TRUE(writer->write_rows(static_cast<int>(count), picture.rows(row), runner));
+                    }
+                    ASSERT_TRUE(writer->finish());
+                    if (first_way.empty())
+                        first_way = content(path);
+                    EXPECT_EQ(content(path), first_way) << step << " rows at a time";
+                }
+            for (std::size_t c = 0; c < picture.channels.size(); ++c) {
+                const auto stored = test::read_with_openexr(path, 0, picture.channels[c].name);
+                EXPECT_EQ(std::string(stored.begin(), stored.end()), picture.plane(c));
+            }
+            const auto file = ExrFile::open(path).value();
+            EXPECT_TRUE(file->parts()[0].tiled);
+            EXPECT_EQ(file->chunks().checksum(), ChunkMap::Sum::Own);
+            std::string scratch;
+            for (std::uint64_t chunk = 0; chunk < file->chunks().chunk_count(0); ++chunk)
+                EXPECT_TRUE(file->chunks().check(0, chunk, scratch));
+        }
+}
+
+/// Scanlines and tiles beside each other, rows of the parts in turn.
+TEST(ExrWriter, PartsOfTilesAndOfScanlines) {
+    const TestFolder folder;
+    const std::string path = folder.path("a.exr");
+    for (const auto compression : {Imf::ZIP_COMPRESSION, Imf::PIZ_COMPRESSION}) {
+        Picture lines(compression, false), tiles(compression, true);
+        lines.header.setName("lines");
+        tiles.header.setName("tiles");
+        tiles.header.setTileDescription(Imf::TileDescription(16, 24));
+        auto writer =
+            ExrWriter::create(path, {{lines.header, lines.channels}, {tiles.header, tiles.channels}}).value();
+        for (std::size_t row = 0; row < lines.height; row += 10) {
+            ASSERT_TRUE(writer->write_rows(10, lines.rows(row), nullptr, 0));
+            ASSERT_TRUE(writer->write_rows(10, tiles.rows(row), nullptr, 1));
+        }
+        ASSERT_TRUE(writer->finish());
+        for (std::size_t c = 0; c < lines.channels.size(); ++c) {
+            const auto first = test::read_with_openexr(path, 0, lines.channels[c].name);
+            const auto second = test::read_with_openexr(path, 1, lines.channels[c].name);
+            EXPECT_EQ(std::string(first.begin(), first.end()), lines.plane(c));
+            EXPECT_EQ(std::string(second.begin(), second.end()), tiles.plane(c));
+        }
+        const auto file = ExrFile::open(path).value();
+        EXPECT_EQ(file->chunks().checksum(), ChunkMap::Sum::Own);
+        EXPECT_FALSE(file->parts()[0].tiled);
+        EXPECT_TRUE(file->parts()[1].tiled);
+    }
 }
 
 /// Limits how large files of this process may become, and makes the excess an error instead of a

@@ -71,5 +71,18 @@ TEST(SpectrumCsv, SaysWhatIsWrongAndWhere) {
     EXPECT_EQ(error("nm,value\n"), "no line with a wavelength in nm and a value");
 }
 
+TEST(SpectrumText, IsWrittenSoThatEveryReaderTakesAll) {
+    EXPECT_EQ(format_spectrum_text({{400, 450.5, 1000}, {0.1, -2, 1e-9}}),
+              "400nm:0.1;450.5nm:-2;1000nm:1e-09;1000nm:1e-09");
+    EXPECT_EQ(format_spectrum_text({}), "");
+    for (const char* text : {"400nm:0.1", "0,5um:1;400 nm : 2 ;", "600nm:3;500nm:0.1;500nm:9;"}) {
+        const Spectrum read = parse_spectrum_text(text).spectrum;
+        const SpectrumText again = parse_spectrum_text(format_spectrum_text(read));
+        EXPECT_TRUE(again.rejected.empty());
+        EXPECT_EQ(again.spectrum.wavelengths_nm, read.wavelengths_nm);
+        EXPECT_EQ(again.spectrum.values, read.values);
+    }
+}
+
 }  // namespace
 }  // namespace osio

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tools/osiotool/collapse_output.h>
 #include <tools/osiotool/commands.h>
+#include <tools/osiotool/frames.h>
 #include <tools/osiotool/progress_bar.h>
 #include <tools/osiotool/report.h>
 #include <tools/osiotool/request_words.h>
@@ -8,6 +9,7 @@
 
 #include <formats/exr/exr_writer.h>
 #include <formats/exr/soundness.h>
+#include <formats/files/sequence.h>
 #include <formats/files/text_file.h>
 
 #include <osio/base/text.h>
@@ -34,9 +36,9 @@ Result<std::vector<exr::BadRows>> missing_rows(const std::vector<image::Collapse
 /// One way to write the result, and all that comes with it.
 class Attempt {
   public:
-    Attempt(const CollapseOptions& options, const std::vector<image::CollapseJob>& jobs,
+    Attempt(const CollapseOptions& options, std::string label, const std::vector<image::CollapseJob>& jobs,
             const std::vector<exr::BadRows>& missing, host::StoredType type)
-        : m_options(options), m_jobs(jobs), m_missing(missing), m_type(type) {}
+        : m_options(options), m_label(std::move(label)), m_jobs(jobs), m_missing(missing), m_type(type) {}
 
     /// Writes everything beside its place.
     Result<void> run(Runner& runner) {
@@ -49,7 +51,7 @@ class Attempt {
                 {m_jobs[i].plan, *m_outputs[i].sink, certified() ? &m_certifiers[i]->witness() : nullptr});
         const image::CollapseJob& first = m_jobs.front();
         const image::Window& window = first.part().data_window;
-        ProgressBar bar(m_options.output, !m_options.quiet);
+        ProgressBar bar(m_label, !m_options.quiet);
         OSIO_TRY(const auto counts, collapse_stream(*source, targets, first.alpha.has_value(),
                                                     {window.min_y, window.max_y}, runner, std::ref(bar)));
         for (std::size_t i = 0; i < m_jobs.size(); ++i) {
@@ -104,6 +106,7 @@ class Attempt {
     }
 
     const CollapseOptions& m_options;
+    std::string m_label;
     const std::vector<image::CollapseJob>& m_jobs;
     const std::vector<exr::BadRows>& m_missing;
     host::StoredType m_type;
@@ -113,14 +116,13 @@ class Attempt {
 };
 
 /// The first candidate that is certified as was asked for, in its place; the last one's reason where none is.
-Result<std::vector<CollapseOutcome>> collapse_certified(const CollapseOptions& options,
-                                                        const std::vector<image::CollapseJob>& jobs,
-                                                        const std::vector<exr::BadRows>& missing,
-                                                        const std::vector<host::StoredType>& types,
-                                                        Runner& runner) {
+Result<std::vector<CollapseOutcome>>
+collapse_certified(const CollapseOptions& options, const std::string& label,
+                   const std::vector<image::CollapseJob>& jobs, const std::vector<exr::BadRows>& missing,
+                   const std::vector<host::StoredType>& types, Runner& runner) {
     Result<void> verdict;
     for (const host::StoredType type : types) {
-        Attempt attempt(options, jobs, missing, type);
+        Attempt attempt(options, label, jobs, missing, type);
         OSIO_CHECK_OK(attempt.run(runner));
         verdict = attempt.judge();
         if (verdict)
@@ -154,9 +156,7 @@ void report(const CollapseOptions& options, const std::vector<image::CollapseJob
                    options.output, exr::rows_text(missing), missing.front().why);
 }
 
-}  // namespace
-
-Result<ExitCode> run_collapse(const CollapseOptions& options) {
+Result<FrameOutcome> collapse_one(const CollapseOptions& options, const std::string& label) {
     const auto started = std::chrono::steady_clock::now();
     OSIO_TRY(const CollapseRequest request, request_of(options.request));
     const bool certified = request.max_delta_e || !options.certificate.empty();
@@ -176,16 +176,35 @@ Result<ExitCode> run_collapse(const CollapseOptions& options) {
     if (options.allow_partial) {
         OSIO_TRY(missing, missing_rows(jobs, {window.min_y, window.max_y}, runner));
     }
-    OSIO_TRY(auto outcomes,
-             collapse_certified(options, jobs, missing, depth_candidates(options, first.plan, type), runner));
+    OSIO_TRY(auto outcomes, collapse_certified(options, label, jobs, missing,
+                                               depth_candidates(options, first.plan, type), runner));
     if (!options.certificate.empty())
         OSIO_CHECK_OK(write_certificates(options.certificate, jobs, outcomes));
     for (CollapseOutcome& outcome : outcomes)
         outcome.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - started).count();
     report(options, jobs, outcomes);
-    if (options.json)
-        fmt::print("{}", outcomes_json(jobs, outcomes));
-    return missing.empty() ? kDone : kBadInput;
+    return FrameOutcome{missing.empty() ? kDone : kBadInput,
+                        options.json ? outcomes_json(jobs, outcomes) : std::string()};
+}
+
+}  // namespace
+
+Result<ExitCode> run_collapse(const CollapseOptions& options) {
+    if (!options.frames.empty() && !options.certificate.empty() &&
+        !files::has_frame_place(options.certificate))
+        return fail(ErrorCode::Usage,
+                    "with --frames the certificate's name needs a place for the frame's number too",
+                    options.certificate);
+    const auto run = [&options](const FrameFiles& files) {
+        CollapseOptions one = options;
+        if (files.frame)
+            one.certificate = files::frame_name(options.certificate, *files.frame);
+        one.input = files.inputs.front();
+        one.output = files.output;
+        return collapse_one(one, files.label);
+    };
+    return run_frames(options.frames, {{options.input}, options.output, options.output, {}}, options.json,
+                      run);
 }
 
 }  // namespace osio::tool

@@ -47,18 +47,29 @@ struct CollapseOptions {
     bool raw = false;            ///< linear values into integers are wanted
     bool allow_partial = false;  ///< keep what is sound of a damaged input
     bool fsync = false;          ///< done only when the storage has every byte
+    std::string frames;          ///< "1-10x2,15"; empty: the names are those of files
     bool quiet = false;
     bool json = false;
 };
 
 struct ConvertOptions {
-    std::string input;
-    std::string output;
-    RequestWords request;  ///< wavelengths and quantity
+    std::vector<std::string> files;  ///< the input, or several to be joined, then the output
+    RequestWords request;            ///< wavelengths and quantity
     std::string part;
     std::string set;
     std::string bands;        ///< "400-700nm"; empty: all
+    std::string resample;     ///< "400:10:700"; empty: the bands' own wavelengths
+    std::string basis;        ///< of resample; empty: auto
+    std::string extrapolate;  ///< of resample: hold, zero; empty: hold
+    std::string preview;      ///< a light, or none; empty: R, G, B as they are
     std::string depth;        ///< of EXR output: half, float; empty: as they are
+    std::string tile;         ///< of EXR output: "64x64"; empty: scanlines
+    std::string split;        ///< bands, sets; empty: one file
+    std::string frames;       ///< "1-10x2,15"; empty: the names are those of files
+    bool half = false;        ///< the same as depth half
+    bool assemble = false;    ///< several inputs
+    bool multi_part = false;
+    bool fsync = false;
     std::string interleave;   ///< of ENVI output: bsq, bil, bip; empty: bsq
     std::string compression;  ///< of EXR output; empty: zip
     unsigned threads = 0;

@@ -158,6 +158,9 @@ class CommandLine {
             ->group("Output");
         command->add_flag("--fsync", m_collapse.fsync, "done only when the storage has every byte")
             ->group("Output");
+        command->add_option("--frames", m_collapse.frames, "once for each; names need %04d or ####")
+            ->type_name("1-10x2,15")
+            ->group("Output");
         command->add_option("--threads", m_collapse.threads, "default: one a processor")
             ->type_name("N")
             ->group("Output");
@@ -176,8 +179,12 @@ class CommandLine {
     void add_convert() {
         CLI::App* const command = add("convert", "bands from one format to another, as they are",
                                       [this] { return run_convert(m_convert); });
-        command->add_option("input", m_convert.input, "spectral OpenEXR or ENVI file")->required();
-        command->add_option("output", m_convert.output, ".exr, .spexr, or .hdr for ENVI")->required();
+        command
+            ->add_option("files", m_convert.files,
+                         "input, then output: .exr, .spexr, or .hdr for ENVI; several inputs with --assemble")
+            ->required()
+            ->expected(2, -1)
+            ->type_name("IN... OUT");
         const auto word = [command](const std::string& name, std::string& value, const std::string& type,
                                     const std::string& help) {
             command->add_option(name, value, help)->type_name(type);
@@ -185,10 +192,23 @@ class CommandLine {
         add_open_options(*command, m_convert.request);
         word("--part", m_convert.part, "PART", "number from 0, or name");
         word("--set", m_convert.set, "SET", "where a part holds several");
+        command->add_flag("--assemble", m_convert.assemble, "channels of several inputs in one output");
+        word("--resample", m_convert.resample, "400:10:700", "bands at other wavelengths, nm");
+        word("--basis", m_convert.basis, "NAME", "of --resample: what lies between bands; default auto");
+        word("--extrapolate", m_convert.extrapolate, "hold|zero",
+             "of --resample: beyond the bands; default hold");
         word("--bands", m_convert.bands, "400-700nm", "bands outside are left out");
+        word("--split", m_convert.split, "bands|sets", "a file of each; {nm}, {set} in the output's name");
+        word("--frames", m_convert.frames, "1-10x2,15", "once for each; names need %04d or ####");
         word("-d", m_convert.depth, "half|float", "of .exr; default: as they are");
+        command->add_flag("--half", m_convert.half, "the same as -d half");
         word("--compression", m_convert.compression, "C", "of .exr; default zip");
+        word("--tile", m_convert.tile, "WxH", "of .exr; default: scanlines");
+        word("--preview", m_convert.preview, "LIGHT|none", "of .exr: R, G, B made of the bands");
+        command->add_flag("--multi-part", m_convert.multi_part,
+                          "of .exr: R, G, B in a part before the bands");
         word("--interleave", m_convert.interleave, "bsq|bil|bip", "of .hdr; default bsq");
+        command->add_flag("--fsync", m_convert.fsync, "done only when the storage has every byte");
         command->add_option("--threads", m_convert.threads, "default: one a processor")->type_name("N");
         command->add_flag("--quiet", m_convert.quiet, "no summary, no progress");
         command->add_flag("--json", m_convert.json, "a report on stdout as JSON");

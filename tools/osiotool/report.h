@@ -49,6 +49,16 @@ struct ConvertReport {
 [[nodiscard]] std::string convert_text(const ConvertReport& report);
 [[nodiscard]] std::string convert_json(const ConvertReport& report);
 
+/// What one frame of a sequence came to.
+struct FrameReport {
+    int frame = 0;
+    int code = 0;       ///< the exit code that it alone would have had
+    std::string error;  ///< why it failed; empty where it did not
+    std::string json;   ///< its command's report; empty where it failed
+};
+
+[[nodiscard]] std::string frames_json(const std::vector<FrameReport>& reports);
+
 /// What is known of a file after all of it was read.
 struct FileSoundness {
     std::string path;

@@ -316,6 +316,7 @@ std::string convert_json(const ConvertReport& report) {
     const convert::Outcome& outcome = report.outcome;
     return dump({{"input", report.input},
                  {"output", outcome.output},
+                 {"outputs", outcome.outputs},
                  {"data", outcome.data.empty() ? Json(nullptr) : Json(outcome.data)},
                  {"width", outcome.width},
                  {"height", outcome.height},
@@ -325,6 +326,16 @@ std::string convert_json(const ConvertReport& report) {
                  {"clamped_samples", outcome.clamped_samples},
                  {"seconds", report.seconds},
                  {"warnings", outcome.warnings}});
+}
+
+std::string frames_json(const std::vector<FrameReport>& reports) {
+    Json frames = Json::array();
+    for (const FrameReport& report : reports)
+        frames.push_back({{"frame", report.frame},
+                          {"exit_code", report.code},
+                          {"error", report.error.empty() ? Json(nullptr) : Json(report.error)},
+                          {"report", report.json.empty() ? Json(nullptr) : Json::parse(report.json)}});
+    return dump({{"frames", std::move(frames)}});
 }
 
 std::string info_json(const image::SpectralImage& file) {

@@ -221,7 +221,10 @@ std::string convert_text(const ConvertReport& report) {
     std::string out =
         fmt::format("{}: {}x{} {}, {} bands, {:.2f} s\n", outcome.output, outcome.width, outcome.height,
                     join(outcome.types, " and "), outcome.bands, report.seconds);
-    if (!outcome.data.empty())
+    if (outcome.outputs.size() > 1)
+        out += fmt::format("{} files, {} to {}\n", outcome.outputs.size(), outcome.outputs.front(),
+                           outcome.outputs.back());
+    else if (!outcome.data.empty())
         out += fmt::format("data in {}\n", outcome.data);
     for (const std::string& what : outcome.lost)
         out += fmt::format("note: not in the output: {}\n", what);

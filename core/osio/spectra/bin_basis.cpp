@@ -51,6 +51,18 @@ void hold_ends(std::span<const double> edges_nm, const NmSamples& weight, std::v
     out.back() += moments(weight, edges_nm.back(), kLastNm, 0).m0;
 }
 
+/// The first moment of bin i is `m1`: its slope, spread onto the two values that it is made of.
+void spread_slope(std::span<const double> edges_nm, std::size_t i, double m1, Extrapolation extrapolation,
+                  std::vector<double>& out) {
+    const double h = (edges_nm.back() - edges_nm.front()) / static_cast<double>(out.size());
+    const double share = m1 / (2 * h);
+    const bool hold = extrapolation == Extrapolation::Hold;
+    if (i + 1 < out.size() || hold)
+        out[std::min(i + 1, out.size() - 1)] += share;
+    if (i > 0 || hold)
+        out[i > 0 ? i - 1 : 0] -= share;
+}
+
 }  // namespace
 
 std::vector<double> bin_integrals(std::span<const double> edges_nm, const NmSamples& weight,
@@ -67,15 +79,27 @@ std::vector<double> corrected_bin_integrals(std::span<const double> edges_nm, co
                                             Extrapolation extrapolation) {
     const auto bins = all_moments(edges_nm, weight);
     std::vector<double> out = bin_integrals(edges_nm, weight, extrapolation);
-    const double h = (edges_nm.back() - edges_nm.front()) / static_cast<double>(bins.size());
-    // Each bin's slope, spread onto the two values that it is made of.
-    for (std::size_t i = 0; i < bins.size(); ++i) {
-        const double share = bins[i].m1 / (2 * h);
-        const bool hold = extrapolation == Extrapolation::Hold;
-        if (i + 1 < bins.size() || hold)
-            out[std::min(i + 1, bins.size() - 1)] += share;
-        if (i > 0 || hold)
-            out[i > 0 ? i - 1 : 0] -= share;
+    for (std::size_t i = 0; i < bins.size(); ++i)
+        spread_slope(edges_nm, i, bins[i].m1, extrapolation, out);
+    return out;
+}
+
+std::vector<double> bin_average_weights(std::span<const double> edges_nm, double low_nm, double high_nm,
+                                        bool corrected, Extrapolation extrapolation) {
+    const double width = high_nm - low_nm;
+    std::vector<double> out(edges_nm.size() - 1, 0.0);
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        const double a = std::max(low_nm, edges_nm[i]), b = std::min(high_nm, edges_nm[i + 1]);
+        if (a >= b)
+            continue;
+        out[i] += (b - a) / width;
+        const double offset = 0.5 * (a + b) - 0.5 * (edges_nm[i] + edges_nm[i + 1]);
+        if (corrected && offset != 0)
+            spread_slope(edges_nm, i, offset * (b - a) / width, extrapolation, out);
+    }
+    if (extrapolation == Extrapolation::Hold) {
+        out.front() += std::max(0.0, std::min(high_nm, edges_nm.front()) - low_nm) / width;
+        out.back() += std::max(0.0, high_nm - std::max(low_nm, edges_nm.back())) / width;
     }
     return out;
 }

@@ -26,4 +26,11 @@ namespace osio {
                                                           const NmSamples& weight,
                                                           Extrapolation extrapolation);
 
+/// The share of each bin's value in the average over [low_nm, high_nm] of the curve that is constant in each
+/// bin, or, `corrected`, the straight lines above. Beyond the end bins the curve keeps their values with
+/// Hold (not their lines) and is zero with Zero. low_nm < high_nm.
+[[nodiscard]] std::vector<double> bin_average_weights(std::span<const double> edges_nm, double low_nm,
+                                                      double high_nm, bool corrected,
+                                                      Extrapolation extrapolation);
+
 }  // namespace osio

@@ -69,36 +69,71 @@ std::size_t interval_of(std::span<const double> bands_nm, double nm) {
     return std::min(i - 1, bands_nm.size() - 2);
 }
 
+/// Adds `amount` times the quintics' coefficients at nm, between the end bands.
+void add_sprague(std::span<const double> bands_nm, double nm, double amount, std::vector<double>& out) {
+    const double step = (bands_nm.back() - bands_nm.front()) / static_cast<double>(bands_nm.size() - 1);
+    const double place = (nm - bands_nm.front()) / step;
+    const auto i = std::min(static_cast<std::size_t>(place), bands_nm.size() - 2);
+    const auto stencil = sprague_at(place - static_cast<double>(i));
+    for (std::size_t s = 0; s < stencil.size(); ++s)
+        add_to_sample(static_cast<std::ptrdiff_t>(i + s) - 2, stencil[s] * amount, out);
+}
+
+/// The same for Lagrange's cubics and parabolas.
+void add_e2022(std::span<const double> bands_nm, double nm, double amount, std::vector<double>& out) {
+    const std::size_t i = interval_of(bands_nm, nm);
+    const std::size_t first = i == 0 ? 0 : i - 1;
+    const std::size_t end = std::min(i + 3, bands_nm.size());
+    for (std::size_t j = first; j < end; ++j) {
+        double lagrange = 1;
+        for (std::size_t m = first; m < end; ++m)
+            if (m != j)
+                lagrange *= (nm - bands_nm[m]) / (bands_nm[j] - bands_nm[m]);
+        out[j] += lagrange * amount;
+    }
+}
+
+void add_linear(std::span<const double> bands_nm, double nm, std::vector<double>& out) {
+    const std::size_t i = interval_of(bands_nm, nm);
+    const double share = (nm - bands_nm[i]) / (bands_nm[i + 1] - bands_nm[i]);
+    out[i] = 1 - share;
+    out[i + 1] = share;
+}
+
 }  // namespace
 
 std::vector<double> sprague_integrals(std::span<const double> bands_nm, const NmSamples& weight,
                                       Extrapolation extrapolation) {
-    const double step = (bands_nm.back() - bands_nm.front()) / static_cast<double>(bands_nm.size() - 1);
-    return sum_at_1nm(bands_nm, weight, extrapolation,
-                      [&](double nm, double amount, std::vector<double>& out) {
-                          const double place = (nm - bands_nm.front()) / step;
-                          const auto i = std::min(static_cast<std::size_t>(place), bands_nm.size() - 2);
-                          const auto stencil = sprague_at(place - static_cast<double>(i));
-                          for (std::size_t s = 0; s < stencil.size(); ++s)
-                              add_to_sample(static_cast<std::ptrdiff_t>(i + s) - 2, stencil[s] * amount, out);
-                      });
+    return sum_at_1nm(
+        bands_nm, weight, extrapolation,
+        [&](double nm, double amount, std::vector<double>& out) { add_sprague(bands_nm, nm, amount, out); });
 }
 
 std::vector<double> e2022_integrals(std::span<const double> bands_nm, const NmSamples& weight,
                                     Extrapolation extrapolation) {
-    return sum_at_1nm(bands_nm, weight, extrapolation,
-                      [&](double nm, double amount, std::vector<double>& out) {
-                          const std::size_t i = interval_of(bands_nm, nm);
-                          const std::size_t first = i == 0 ? 0 : i - 1;
-                          const std::size_t end = std::min(i + 3, bands_nm.size());
-                          for (std::size_t j = first; j < end; ++j) {
-                              double lagrange = 1;
-                              for (std::size_t m = first; m < end; ++m)
-                                  if (m != j)
-                                      lagrange *= (nm - bands_nm[m]) / (bands_nm[j] - bands_nm[m]);
-                              out[j] += lagrange * amount;
-                          }
-                      });
+    return sum_at_1nm(
+        bands_nm, weight, extrapolation,
+        [&](double nm, double amount, std::vector<double>& out) { add_e2022(bands_nm, nm, amount, out); });
+}
+
+std::vector<double> interpolation_weights(Basis basis, std::span<const double> bands_nm, double nm,
+                                          Extrapolation extrapolation) {
+    std::vector<double> out(bands_nm.size(), 0.0);
+    if (nm < bands_nm.front() || nm > bands_nm.back()) {
+        if (extrapolation == Extrapolation::Hold)
+            (nm < bands_nm.front() ? out.front() : out.back()) = 1;
+        return out;
+    }
+    const auto at = std::lower_bound(bands_nm.begin(), bands_nm.end(), nm);
+    if (*at == nm)
+        out[static_cast<std::size_t>(at - bands_nm.begin())] = 1;
+    else if (basis == Basis::Sprague)
+        add_sprague(bands_nm, nm, 1, out);
+    else if (basis == Basis::E2022)
+        add_e2022(bands_nm, nm, 1, out);
+    else
+        add_linear(bands_nm, nm, out);
+    return out;
 }
 
 }  // namespace osio

@@ -21,4 +21,10 @@ namespace osio {
 [[nodiscard]] std::vector<double> e2022_integrals(std::span<const double> bands_nm, const NmSamples& weight,
                                                   Extrapolation extrapolation);
 
+/// phi_i(nm) of each band for Linear, Sprague or E2022, at any wavelength: the curve's value there is their
+/// sum times the bands' values. At a band's own wavelength exactly 1 for it and 0 for the others. The bands
+/// must be those that the basis needs.
+[[nodiscard]] std::vector<double> interpolation_weights(Basis basis, std::span<const double> bands_nm,
+                                                        double nm, Extrapolation extrapolation);
+
 }  // namespace osio

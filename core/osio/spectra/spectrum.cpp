@@ -92,6 +92,16 @@ SpectrumText parse_spectrum_text(std::string_view text) {
     return out;
 }
 
+std::string format_spectrum_text(const Spectrum& spectrum) {
+    std::string out, sample;
+    for (std::size_t i = 0; i < spectrum.values.size(); ++i) {
+        sample = format_wavelength(spectrum.wavelengths_nm[i], DecimalMark::Point) + ":" +
+                 format_double(spectrum.values[i]);
+        out += sample + ";";
+    }
+    return out + sample;
+}
+
 Result<Spectrum> parse_spectrum_csv(std::string_view text) {
     OSIO_TRY(std::vector<Spectrum> curves, parse_curves_csv(text, 1));
     return std::move(curves.front());

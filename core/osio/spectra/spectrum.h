@@ -34,6 +34,12 @@ struct SpectrumText {
 /// pieces without a unit are rejected and listed; of equal wavelengths the first stays.
 [[nodiscard]] SpectrumText parse_spectrum_text(std::string_view text);
 
+/// A curve as `<wavelength>nm:<value>;...` in the one spelling that every known reader takes whole: points, shortest
+/// numbers, and the last sample twice, the second time without `;`. The layout's reference library reads what ends
+/// in `;` and passes over the rest, colour-science refuses a `;` at the end and keeps one sample of equal
+/// wavelengths. Negative values the reference library passes over however they are written. Empty for no samples.
+[[nodiscard]] std::string format_spectrum_text(const Spectrum& spectrum);
+
 /// Reads a two-column table `nm,value`: comma, semicolon, tab or spaces between the columns, a
 /// decimal point, lines starting with `#` and one header line optional. Wavelengths must be
 /// positive, strictly increasing and in nanometres, values finite. The error names the line.

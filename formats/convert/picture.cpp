@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <formats/convert/derived_image.h>
+#include <formats/convert/picture.h>
+#include <formats/image/preview_plan.h>
+
+#include <algorithm>
+
+namespace osio::convert {
+
+Result<Choice> with_picture(Choice choice, const std::string& light) {
+    const image::Part& part = choice.part();
+    const std::vector<std::string> names = picture_names(choice.set.root);
+    const std::vector<std::string> own = derived_names(part);
+    std::vector<DerivedChannel> channels;
+    std::vector<image::Channel> described;
+    for (const std::size_t channel : choice.channels)
+        if (std::find(names.begin(), names.end(), part.channels[channel].name) == names.end()) {
+            described.push_back(part.channels[channel]);
+            described.back().name = own[channel];
+            channels.push_back({described.back(), channel, {}});
+        }
+    // The plan is that of the file that is written: of the bands that stay and of what is still said of them.
+    const image::Part written = described_part(std::move(described), choice.attributes);
+    const auto set =
+        std::find_if(written.layout.sets.begin(), written.layout.sets.end(),
+                     [&](const SpectralSet& other) { return other.name() == choice.set.name(); });
+    auto plan = image::preview_plan(*set, written.metadata, light);
+    if (!plan)
+        return fail_in(choice.image->path(), std::move(plan).error());
+    for (std::size_t row = 0; row < names.size(); ++row) {
+        DerivedChannel sum{{names[row], SampleType::Float, false}, std::nullopt, {}};
+        for (std::size_t band = 0; band < plan->bands.size(); ++band)
+            if (const double weight = plan->weights.at(row, band); weight != 0)
+                sum.terms.push_back({channels[plan->bands[band].channel].source.value(), weight});
+        channels.push_back(std::move(sum));
+    }
+    image::insert_preview_attributes(*plan, choice.attributes);
+    const std::size_t count = channels.size();
+    Choice out;
+    out.image = derive_image(choice.image, choice.part_index, std::move(channels), choice.attributes);
+    for (std::size_t channel = 0; channel < count; ++channel)
+        out.channels.push_back(channel);
+    const auto& sets = out.part().layout.sets;
+    out.set = *std::find_if(sets.begin(), sets.end(),
+                            [&](const SpectralSet& other) { return other.name() == choice.set.name(); });
+    out.attributes = choice.attributes;
+    out.lost = choice.lost;
+    return out;
+}
+
+}  // namespace osio::convert
