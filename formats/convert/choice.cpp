@@ -88,7 +88,7 @@ Result<void> leave_out(const std::function<bool(double nm)>& keep, const std::st
                        Choice& choice) {
     const ChannelLayout& layout = choice.part().layout;
     std::set<std::size_t> left_out;
-    std::set<std::string> pictures;
+    std::vector<std::string> pictures;
     for (const SpectralSet& set : layout.sets) {
         const std::size_t before = left_out.size();
         for (const Band& band : set.bands)
@@ -98,8 +98,7 @@ Result<void> leave_out(const std::function<bool(double nm)>& keep, const std::st
             if (!keep(pair.excited_nm) || !keep(pair.emitted_nm))
                 left_out.insert(pair.channel);
         if (left_out.size() != before)
-            for (std::string& name : picture_names(set.root))
-                pictures.insert(std::move(name));
+            add_unique(picture_names(set.root), pictures);
     }
     const SpectralSet whole = choice.set;
     std::erase_if(choice.set.bands, [&](const Band& band) { return left_out.contains(band.channel); });
@@ -112,10 +111,10 @@ Result<void> leave_out(const std::function<bool(double nm)>& keep, const std::st
     if (left_out.empty())
         return {};
     cut_bin_edges(choice.part(), whole, choice.set, choice);
-    for (const std::size_t channel : layout.others)
-        if (pictures.contains(layout.channel_names[channel])) {
-            left_out.insert(channel);
-            choice.lost.push_back("channel " + layout.channel_names[channel] + ", a preview of all bands");
+    for (const std::string& name : pictures)
+        if (const auto channel = layout.find_channel(name)) {
+            left_out.insert(*channel);
+            choice.lost.push_back("channel " + name + ", a preview of all bands");
         }
     choice.attributes.erase(image::attribute::kPreviewRecipe);
     std::erase_if(choice.channels, [&](std::size_t channel) { return left_out.contains(channel); });

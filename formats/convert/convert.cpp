@@ -41,7 +41,8 @@ Result<void> check_words(const Request& request, const Target& target) {
     return {};
 }
 
-std::string selected(const Request& request, const image::SpectralImage& image) {
+/// Parts that do not go over, in words; empty for none.
+std::string other_parts(const Request& request, const image::SpectralImage& image) {
     const std::size_t others = image.parts().size() - 1;
     if (others == 0 || request.split == Split::Sets)
         return {};
@@ -242,7 +243,7 @@ Result<Outcome> convert(const Request& request, Runner& runner, const Progress& 
     out.output = request.output;
     OSIO_TRY(const auto image, open_inputs(request, out));
     OSIO_TRY(const auto sets, selections(request, *target, *image));
-    if (std::string others = selected(request, *image); !others.empty())
+    if (std::string others = other_parts(request, *image); !others.empty())
         out.lost.push_back(std::move(others));
     std::vector<Output> outputs;
     for (const Selection& set : sets) {

@@ -135,19 +135,20 @@ class DerivedImage final : public image::SpectralImage {
             return plane;
         };
         Planes planes;
+        planes.planes.resize(wanted.size());
         std::vector<std::vector<DerivedChannel::Term>> sums;
-        for (const auto& channel : wanted) {
-            Plane plane;
-            if (channel && m_channels[*channel].source) {
-                plane.copied = plane_of(*m_channels[*channel].source);
-            } else if (channel) {
-                plane.summed = sums.size();
-                sums.push_back(m_channels[*channel].terms);
-                for (DerivedChannel::Term& term : sums.back())
-                    term.channel = plane_of(term.channel);
-            }
-            planes.planes.push_back(plane);
+        // Sums first: products are added in the order of their terms.
+        for (std::size_t p = 0; p < wanted.size(); ++p) {
+            if (!wanted[p] || m_channels[*wanted[p]].source)
+                continue;
+            planes.planes[p].summed = sums.size();
+            sums.push_back(m_channels[*wanted[p]].terms);
+            for (DerivedChannel::Term& term : sums.back())
+                term.channel = plane_of(term.channel);
         }
+        for (std::size_t p = 0; p < wanted.size(); ++p)
+            if (wanted[p] && m_channels[*wanted[p]].source)
+                planes.planes[p].copied = plane_of(*m_channels[*wanted[p]].source);
         planes.weights = WeightMatrix(sums.size(), read.size());
         for (std::size_t row = 0; row < sums.size(); ++row)
             for (const DerivedChannel::Term& term : sums[row])

@@ -29,9 +29,10 @@ Result<Choice> with_picture(Choice choice, const std::string& light) {
         return fail_in(choice.image->path(), std::move(plan).error());
     for (std::size_t row = 0; row < names.size(); ++row) {
         DerivedChannel sum{{names[row], SampleType::Float, false}, std::nullopt, {}};
+        // All bands, in the plan's order: the sums are a collapse's to the last bit.
         for (std::size_t band = 0; band < plan->bands.size(); ++band)
-            if (const double weight = plan->weights.at(row, band); weight != 0)
-                sum.terms.push_back({channels[plan->bands[band].channel].source.value(), weight});
+            sum.terms.push_back(
+                {channels[plan->bands[band].channel].source.value(), plan->weights.at(row, band)});
         channels.push_back(std::move(sum));
     }
     image::insert_preview_attributes(*plan, choice.attributes);

@@ -277,7 +277,6 @@ class Parts(OsioCase):
         tile = image.read_tile(-4, 9, 0)
         self.assertEqual(tile.shape[:2], (128, 128))
         self.assertIsNone(image.read_tile(-3, 9, 0))
-        self.assertIn("there is no tile at -3, 9", image.geterror())
 
     def test_a_tiled_file_of_openexr_is_tiled_here_too(self):
         self.write_exr("in.exr", self.bands(GRID, (50, 41)), tile=32, types=HALF)
