@@ -5,15 +5,12 @@
 #include <formats/image/header_attributes.h>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
 namespace osio::tool {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
 
 WrittenPart written_part(const image::Part& part) {
     WrittenPart out{part.layout, part.metadata, image::header_attributes(part.header), {}, false, 1};
@@ -42,31 +39,6 @@ std::vector<std::string> problems_of(const image::Part& part) {
         out.push_back(
             fmt::format("{} bands are sub-sampled: every band needs a sample at every pixel", subsampled));
     return out;
-}
-
-Json text_or_null(const std::string& text) {
-    return text.empty() ? Json(nullptr) : Json(text);
-}
-
-Json part_json(const AuditedPart& part) {
-    Json sets = Json::array(), quirks = Json::array();
-    for (const AuditedSet& set : part.sets)
-        sets.push_back({{"name", set.name},
-                        {"quantity", quantity_name(set.quantity)},
-                        {"bands", set.wavelengths_nm.size()},
-                        {"basis", basis_name(set.basis.basis)},
-                        {"basis_reason", set.basis.reason}});
-    for (const Quirk& quirk : part.quirks)
-        quirks.push_back({{"what", quirk.what}, {"done", quirk.done}});
-    return {{"name", part.name},
-            {"writer", text_or_null(part.writer.name)},
-            {"writer_evidence", text_or_null(part.writer.evidence)},
-            {"dialect", text_or_null(part.dialect.name)},
-            {"dialect_evidence", text_or_null(part.dialect.evidence)},
-            {"sets", std::move(sets)},
-            {"assumed", part.assumed},
-            {"quirks", std::move(quirks)},
-            {"problems", part.problems}};
 }
 
 std::string part_text(const AuditedPart& part, std::size_t index) {
@@ -120,21 +92,6 @@ std::string audit_text(const AuditedFile& file) {
     for (std::size_t i = 0; i < file.parts.size(); ++i)
         out += part_text(file.parts[i], i);
     return out;
-}
-
-std::string audit_json(const std::vector<AuditedFile>& files) {
-    Json out = Json::array();
-    for (const AuditedFile& file : files) {
-        Json parts = Json::array();
-        for (const AuditedPart& part : file.parts)
-            parts.push_back(part_json(part));
-        out.push_back({{"file", file.path},
-                       {"format", text_or_null(file.format)},
-                       {"failure", file.failure ? Json(file.failure->what) : Json(nullptr)},
-                       {"parts", std::move(parts)}});
-    }
-    // Bytes of a file that are no UTF-8 are replaced rather than refused.
-    return Json{{"files", std::move(out)}}.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace osio::tool

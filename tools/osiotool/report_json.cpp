@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <tools/osiotool/audit.h>
 #include <tools/osiotool/report.h>
 
 #include <osio/base/text.h>
@@ -211,6 +212,27 @@ Json outcome_object(const image::CollapseJob& job, const CollapseOutcome& outcom
             {"warnings", job.warnings}};
 }
 
+Json audited_json(const AuditedPart& part) {
+    Json sets = Json::array(), quirks = Json::array();
+    for (const AuditedSet& set : part.sets)
+        sets.push_back({{"name", set.name},
+                        {"quantity", quantity_name(set.quantity)},
+                        {"bands", set.wavelengths_nm.size()},
+                        {"basis", basis_name(set.basis.basis)},
+                        {"basis_reason", set.basis.reason}});
+    for (const Quirk& quirk : part.quirks)
+        quirks.push_back({{"what", quirk.what}, {"done", quirk.done}});
+    return {{"name", part.name},
+            {"writer", named_text(part.writer.name)},
+            {"writer_evidence", named_text(part.writer.evidence)},
+            {"dialect", named_text(part.dialect.name)},
+            {"dialect_evidence", named_text(part.dialect.evidence)},
+            {"sets", std::move(sets)},
+            {"assumed", part.assumed},
+            {"quirks", std::move(quirks)},
+            {"problems", part.problems}};
+}
+
 /// Text from files may hold bytes that are no UTF-8; they are replaced rather than refused.
 std::string dump(const Json& json) {
     return json.dump(kIndent, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -343,6 +365,20 @@ std::string info_json(const image::SpectralImage& file) {
     for (const image::Part& part : file.parts())
         parts.push_back(part_json(part));
     return dump({{"file", file.path()}, {"format", file.format()}, {"parts", std::move(parts)}});
+}
+
+std::string audit_json(const std::vector<AuditedFile>& files) {
+    Json out = Json::array();
+    for (const AuditedFile& file : files) {
+        Json parts = Json::array();
+        for (const AuditedPart& part : file.parts)
+            parts.push_back(audited_json(part));
+        out.push_back({{"file", file.path},
+                       {"format", named_text(file.format)},
+                       {"failure", file.failure ? Json(file.failure->what) : Json(nullptr)},
+                       {"parts", std::move(parts)}});
+    }
+    return dump({{"files", std::move(out)}});
 }
 
 std::string plans_json(const std::vector<image::CollapseJob>& jobs) {
