@@ -224,7 +224,7 @@ TEST(ExrWriter, TilesAreReadByOpenExr) {
     tool::ThreadRunner threads(3);
     for (const auto compression : {Imf::ZIP_COMPRESSION, Imf::ZIPS_COMPRESSION, Imf::NO_COMPRESSION,
                                    Imf::RLE_COMPRESSION, Imf::PIZ_COMPRESSION})
-        for (const auto [tile_width, tile_height] :
+        for (const auto& [tile_width, tile_height] :
              {std::pair{16U, 8U}, {7U, 70U}, {64U, 64U}, {37U, 1U}, {200U, 300U}}) {
             Picture picture(compression, tile_width == 16);
             picture.header.setTileDescription(Imf::TileDescription(tile_width, tile_height));
