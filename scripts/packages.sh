@@ -4,12 +4,13 @@
 # What building and running needs.
 OSIO_PACKAGES="g++ cmake ninja-build pkg-config
     libopenimageio-dev libopencolorio-dev libopenexr-dev libimath-dev libhwy-dev libdeflate-dev
+    libtiff-dev libpng-dev libpugixml-dev
     libcli11-dev libfmt-dev nlohmann-json3-dev libexpected-dev libxxhash-dev
     openimageio-tools fonts-dejavu-core"
 
 # What the tests drive besides.
 OSIO_TEST_PACKAGES="libgtest-dev openexr opencolorio-tools
-    python3 python3-numpy python3-openimageio"
+    python3 python3-numpy python3-openimageio python3-gdal"
 
 # What fuzzing needs besides.
 OSIO_FUZZ_PACKAGES="clang-14 libclang-rt-14-dev"

@@ -6,6 +6,7 @@
 #include <formats/convert/resample.h>
 #include <formats/convert/sink.h>
 #include <formats/image/open_image.h>
+#include <formats/stack/stack.h>
 
 #include <osio/base/text.h>
 #include <osio/spectra/wavelength.h>
@@ -21,18 +22,24 @@ constexpr std::size_t kMostOpen = 64;
 
 /// Every format that is written, one a line.
 const std::vector<Target>& targets() {
-    static const std::vector<Target> all{{{".exr", ".spexr"}, true, open_exr},  //
-                                         {{".hdr"}, false, open_envi}};
+    static const std::vector<Target> all{{{".exr", ".spexr"}, true, open_exr},
+                                         {{".hdr"}, false, open_envi},
+                                         {{".tif", ".tiff"}, false, open_tiff}};
     return all;
 }
 
 Result<void> check_words(const Request& request, const Target& target) {
-    const bool exr = target.open == open_exr, envi = target.open == open_envi;
+    const bool exr = target.open == open_exr, envi = target.open == open_envi,
+               tiff = target.open == open_tiff;
     if (!envi && request.interleave)
         return fail(ErrorCode::Usage, "--interleave is for .hdr output");
-    if (!exr && (request.depth || !request.compression.empty()))
-        return fail(ErrorCode::Usage,
-                    "-d, --half and --compression are for .exr output; ENVI gets plain floats");
+    if (!exr && request.depth)
+        return fail(ErrorCode::Usage, "-d and --half are for .exr output; ENVI and TIFF get plain floats");
+    if (envi && !request.compression.empty())
+        return fail(ErrorCode::Usage, "--compression is for .exr and .tif output; ENVI gets plain floats");
+    if (tiff && !request.compression.empty() && request.compression != "none" && request.compression != "zip")
+        return fail(ErrorCode::Usage, "there is no compression \"" + request.compression +
+                                          "\" of .tif output; expected none or zip");
     if (!exr && (request.tile || request.multi_part || !request.preview.empty()))
         return fail(ErrorCode::Usage, "--tile, --preview and --multi-part are for .exr output");
     if (request.split == Split::Bands && (request.multi_part || !request.preview.empty()))
@@ -49,9 +56,27 @@ std::string other_parts(const Request& request, const image::SpectralImage& imag
     return std::to_string(others) + " other part" + (others > 1 ? "s" : "");
 }
 
+/// False for a file that is a band only together with what its name or the user's words say.
+Result<bool> holds_bands(const std::string& path) {
+    const auto image = image::open_image(path);
+    if (!image && image.error().code == ErrorCode::NotSpectral)
+        return false;
+    if (!image)
+        return tl::unexpected(image.error());
+    const auto& parts = (*image)->parts();
+    return std::any_of(parts.begin(), parts.end(),
+                       [](const image::Part& part) { return !part.layout.sets.empty(); });
+}
+
 Result<std::shared_ptr<const image::SpectralImage>> open_inputs(const Request& request, Outcome& outcome) {
     if (request.joined.empty())
         return image::open_image(request.input, request.words);
+    OSIO_TRY(const bool bands, holds_bands(request.input));
+    if (!bands) {
+        std::vector<std::string> files{request.input};
+        files.insert(files.end(), request.joined.begin(), request.joined.end());
+        return stack::open_stack(files, request.words);
+    }
     std::vector<std::shared_ptr<const image::SpectralImage>> images;
     OSIO_TRY(auto first, image::open_image(request.input, request.words));
     images.push_back(std::move(first));

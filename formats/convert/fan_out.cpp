@@ -68,7 +68,10 @@ Result<void> write_outputs(const Request& request, const Target& target, std::sp
     }
     const image::Window& window = first.part().data_window;
     const RowRange rows{window.min_y, window.max_y};
-    if (const int together = sinks.front()->rows_together(); together > 0)
+    int together = 0;
+    for (const auto& sink : sinks)
+        together = std::max(together, sink->rows_together());
+    if (together > 0)
         source = regroup(std::move(source), rows, together);
     const auto start = [&] { return std::make_unique<FanOut>(sinks, planes); };
     OSIO_CHECK_OK(visit_blocks(*source, rows, runner, start, progress));

@@ -34,7 +34,8 @@ class RowGatherer {
         m_views.clear();
         for (std::size_t p = 0; p < m_planes.size(); ++p) {
             const SampleType type = m_block->planes[p].type;
-            m_views.push_back({m_planes[p].data(), type, static_cast<std::ptrdiff_t>(sample_bytes(type))});
+            m_views.push_back({m_planes[p].empty() ? nullptr : m_planes[p].data(), type,
+                               static_cast<std::ptrdiff_t>(sample_bytes(type))});
         }
         return std::span<const BandView>(m_views);
     }
@@ -51,6 +52,8 @@ class RowGatherer {
 
     static void copy(const BandView& from, std::size_t count, std::size_t samples, std::size_t at,
                      std::vector<std::byte>& to) {
+        if (from.data == nullptr)  // a plane that nobody reads
+            return;
         const std::size_t bytes = sample_bytes(from.type);
         to.resize(samples * bytes);
         if (from.contiguous()) {

@@ -20,7 +20,8 @@ class Sink {
     /// on.
     [[nodiscard]] virtual std::unique_ptr<BlockVisitor> start() = 0;
 
-    /// Rows that are packed together, where a block of as many can be packed by its worker alone; 0: any.
+    /// Rows that are packed together, where a block of as many can be packed by its worker alone; 0: any. Of files
+    /// that are written in one pass each divides the largest, unless that is all rows.
     [[nodiscard]] virtual int rows_together() const { return 0; }
 
     /// Completes the file and adds to the outcome what became of it.
@@ -34,6 +35,9 @@ using OpenSink = Result<std::unique_ptr<Sink>> (*)(const Request& request, const
 [[nodiscard]] Result<std::unique_ptr<Sink>> open_exr(const Request& request, const Choice& choice,
                                                      Outcome& outcome);
 [[nodiscard]] Result<std::unique_ptr<Sink>> open_envi(const Request& request, const Choice& choice,
+                                                      Outcome& outcome);
+
+[[nodiscard]] Result<std::unique_ptr<Sink>> open_tiff(const Request& request, const Choice& choice,
                                                       Outcome& outcome);
 
 /// A format that is written.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <formats/convert/samples.h>
+#include <formats/convert/cube_output.h>
 #include <formats/convert/sink.h>
 #include <formats/envi/attribute_fields.h>
 #include <formats/envi/envi_writer.h>
@@ -12,37 +12,22 @@ namespace osio::convert {
 
 namespace {
 
-/// A worker's blocks as floats.
+/// A worker's blocks as rows of floats.
 class Floats final : public BlockVisitor {
   public:
-    Floats(envi::EnviWriter& writer, std::size_t planes)
-        : m_writer(writer), m_buffers(planes), m_planes(planes) {}
+    Floats(envi::EnviWriter& writer, std::size_t planes) : m_writer(writer), m_planes(planes) {}
 
-    void process(const PlanarBlock& block) override {
-        for (std::size_t p = 0; p < m_planes.size(); ++p)
-            m_planes[p] = reinterpret_cast<const float*>(m_buffers[p].convert(block, p, SampleType::Float));
-    }
+    void process(const PlanarBlock& block) override { m_rows = m_planes.of(block); }
 
     [[nodiscard]] Result<void> deliver(const PlanarBlock& block) override {
-        return m_writer.write_rows(block.row_count, m_planes);
+        return m_writer.write_rows(block.row_count, m_rows);
     }
 
   private:
     envi::EnviWriter& m_writer;
-    std::vector<SampleBuffer> m_buffers;
-    std::vector<const float*> m_planes;
+    FloatPlanes m_planes;
+    std::span<const float* const> m_rows;
 };
-
-/// Attributes that a cube states by its own keys, or that every header of OpenEXR has.
-bool is_stated(const std::string& name, const Imf::Header& header, bool with_fwhm) {
-    if (name == "pixelAspectRatio")
-        return header.pixelAspectRatio() == 1;
-    if (name == "screenWindowWidth")
-        return header.screenWindowWidth() == 1;
-    if (name == "screenWindowCenter")
-        return header.screenWindowCenter() == Imath::V2f(0, 0);
-    return name == attribute::kLayoutVersion || (with_fwhm && name == attribute::kFwhm);
-}
 
 /// Keys that the writer states itself.
 bool is_written(const std::string& key) {
@@ -71,8 +56,7 @@ void add_fields(const Choice& choice, envi::EnviOutput& cube, std::vector<std::s
         else
             cube.fields.push_back(std::move(*field));
     }
-    if (!names.empty())
-        lost.push_back((names.size() > 1 ? "attributes " : "attribute ") + names_text(names));
+    note_lost_attributes(names, lost);
 }
 
 /// A cube that is being written.
@@ -105,22 +89,10 @@ Result<std::unique_ptr<Sink>> open_envi(const Request& request, const Choice& ch
     cube.interleave = request.interleave.value_or(envi::Interleave::Bsq);
     cube.quantity = choice.set.quantity();
     cube.wavelengths_nm = choice.set.wavelengths_nm();
-    if (const auto& fwhm = part.metadata.fwhm)
-        for (const double nm : cube.wavelengths_nm)
-            cube.fwhm_nm.push_back(fwhm->held_at(nm));
+    cube.fwhm_nm = widths_of(choice);
     std::vector<std::string> lost;
     add_fields(choice, cube, lost);
-    const image::Window whole{0, 0, part.data_window.width() - 1, part.data_window.height() - 1};
-    if (part.data_window != whole || part.display_window != whole)
-        lost.emplace_back("the place of the data window in the display window");
-    if (choice.set.family != Family::T && choice.set.family != Family::S0)
-        lost.push_back("that the bands are the Stokes component " +
-                       std::string(family_name(choice.set.family)));
-    if (!choice.set.root.empty())
-        lost.push_back("the name \"" + choice.set.root + "\" of the set");
-    if (std::any_of(choice.channels.begin(), choice.channels.end(),
-                    [&part](std::size_t c) { return part.channels[c].type == SampleType::Uint; }))
-        lost.emplace_back("digits of unsigned integers beyond the 24 bits of a float");
+    note_cube_losses(choice, lost);
     add_unique(std::move(lost), outcome.lost);
     outcome.types = {"float"};
     OSIO_TRY(auto writer, envi::EnviWriter::create(request.output, std::move(cube)));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/envi/block_rows.h>
-#include <formats/envi/sample_rows.h>
+#include <formats/image/even_rows.h>
 #include <formats/image/limits.h>
+#include <formats/image/number_rows.h>
 
 #include <algorithm>
 
@@ -9,9 +10,12 @@ namespace osio::envi {
 
 namespace {
 
-/// Blocks are as many rows as need about this many bytes: worth a worker's while, and small beside the image.
-constexpr std::uint64_t kBlockBytes = std::uint64_t{1} << 22;
 constexpr std::uint64_t kMostRows = 64;
+
+image::Scaling scaling_of(const EnviHeader& header, std::size_t band) {
+    return {header.gain.empty() ? 1 : header.gain[band], header.offset.empty() ? 0 : header.offset[band],
+            header.divisor, header.ignore_value};
+}
 
 /// What readers of one source share.
 struct Job {
@@ -28,7 +32,7 @@ class RowReader final : public BlockReader {
         const std::uint64_t samples = m_header.samples * static_cast<std::uint64_t>(job.rows_per_block);
         for (const auto& channel : job.planes) {
             m_planes.emplace_back(channel ? samples : 0);
-            m_scaling.push_back(channel ? Scaling::of(m_header, *channel) : Scaling());
+            m_scaling.push_back(channel ? scaling_of(m_header, *channel) : image::Scaling());
         }
     }
 
@@ -83,45 +87,31 @@ class RowReader final : public BlockReader {
     }
 
     void convert(std::size_t from, std::size_t stride, std::size_t count, std::size_t plane, std::size_t to) {
-        to_floats(reinterpret_cast<const std::byte*>(m_bytes.data()) + from * data_bytes(m_header.type),
-                  stride, count, m_header.type, m_header.big_endian, m_scaling[plane],
-                  m_planes[plane].data() + to);
+        image::to_floats(reinterpret_cast<const std::byte*>(m_bytes.data()) +
+                             from * data_bytes(m_header.type),
+                         stride, count, number_type(m_header.type), m_header.big_endian, m_scaling[plane],
+                         m_planes[plane].data() + to);
     }
 
     const Job& m_job;
     const EnviHeader& m_header;
     std::string m_bytes;
     std::vector<std::vector<float>> m_planes;
-    std::vector<Scaling> m_scaling;
+    std::vector<image::Scaling> m_scaling;
 };
 
-class RowSource final : public BlockSource {
+class RowSource final : public image::EvenRows {
   public:
-    explicit RowSource(Job job) : m_job(std::move(job)) {}
-
-    [[nodiscard]] int width() const override { return static_cast<int>(m_job.header().samples); }
-
-    [[nodiscard]] std::size_t block_count() const override {
-        return (m_job.header().lines + rows() - 1) / rows();
-    }
-
-    [[nodiscard]] std::size_t block_of_row(int row) const override {
-        return static_cast<std::size_t>(row) / rows();
-    }
-
-    [[nodiscard]] RowRange rows_of_block(std::size_t block) const override {
-        const std::uint64_t first = block * rows();
-        return {static_cast<int>(first),
-                static_cast<int>(std::min(first + rows(), m_job.header().lines) - 1)};
-    }
+    explicit RowSource(Job job)
+        : EvenRows(static_cast<int>(job.header().samples), static_cast<int>(job.header().lines),
+                   job.rows_per_block),
+          m_job(std::move(job)) {}
 
     [[nodiscard]] Result<std::unique_ptr<BlockReader>> start_reader() const override {
         return std::make_unique<RowReader>(m_job);
     }
 
   private:
-    [[nodiscard]] std::uint64_t rows() const { return static_cast<std::uint64_t>(m_job.rows_per_block); }
-
     Job m_job;
 };
 
@@ -140,7 +130,9 @@ Result<std::unique_ptr<BlockSource>> make_row_source(std::shared_ptr<const EnviF
                     "a row needs more than " + std::to_string(image::kMostBlockBytes) + " bytes",
                     file->path());
     const std::uint64_t rows =
-        grain == image::Grain::Chunk ? 1 : std::clamp<std::uint64_t>(kBlockBytes / row_bytes, 1, kMostRows);
+        grain == image::Grain::Chunk
+            ? 1
+            : std::clamp<std::uint64_t>(image::EvenRows::kBlockBytes / row_bytes, 1, kMostRows);
     return std::make_unique<RowSource>(
         Job{std::move(file), std::move(planes), static_cast<int>(std::min(rows, header.lines))});
 }

@@ -2,6 +2,7 @@
 #include <formats/envi/block_rows.h>
 #include <formats/envi/envi_file.h>
 #include <formats/files/text_file.h>
+#include <formats/image/band_facts.h>
 #include <formats/image/limits.h>
 
 #include <osio/base/text.h>
@@ -71,55 +72,22 @@ Result<void> check_length(const files::RawFile& data, EnviHeader& header) {
     return {};
 }
 
-std::vector<std::string> channel_names(const EnviHeader& header) {
-    const Family family = header.quantity == Quantity::Radiance ? Family::S0 : Family::T;
-    std::vector<std::string> names;
+std::vector<image::BandFacts> facts_of(const EnviHeader& header) {
+    std::vector<image::BandFacts> out(header.bands);
     for (std::size_t band = 0; band < header.bands; ++band) {
-        const double nm = header.wavelengths_nm.empty() ? 0 : header.wavelengths_nm[band];
-        const bool bad = !header.bad.empty() && header.bad[band];
-        if (nm == 0 || bad)
-            names.push_back((bad ? "bad." : "band.") + std::to_string(band + 1));
-        else
-            names.push_back(format_channel_name({{}, family, nm, {}}, DecimalMark::Comma));
+        if (!header.wavelengths_nm.empty())
+            out[band].wavelength_nm = header.wavelengths_nm[band];
+        if (!header.fwhm_nm.empty())
+            out[band].fwhm_nm = header.fwhm_nm[band];
+        out[band].bad = !header.bad.empty() && header.bad[band];
     }
-    return layout_names(names);
-}
-
-/// "wavelength:width;..." for the bands that have both.
-std::string fwhm_text(const EnviHeader& header) {
-    std::string out;
-    for (std::size_t band = 0; band < header.fwhm_nm.size(); ++band)
-        if (header.wavelengths_nm[band] > 0 && header.fwhm_nm[band] > 0)
-            out += format_double(header.wavelengths_nm[band]) + "nm:" + format_double(header.fwhm_nm[band]) +
-                   ";";
     return out;
 }
 
-void insert_text(std::string_view name, const std::string& value, Imf::Header& header) {
-    header.insert(std::string(name), Imf::StringAttribute(value));
-}
-
-void insert_attributes(const EnviHeader& header, Imf::Header& out) {
-    insert_text(attribute::kLayoutVersion, std::string(kWrittenLayoutVersion), out);
-    if (header.quantity == Quantity::Radiance)
-        insert_text(attribute::kEmissiveUnits,
-                    header.units.empty() ? std::string(kWrittenEmissiveUnits) : header.units, out);
-    if (const std::string fwhm = fwhm_text(header); !fwhm.empty())
-        insert_text(attribute::kFwhm, fwhm, out);
-    for (const Field& field : header.fields.fields)
-        if (!is_structural(field.key))
-            insert_field(field, out);
-}
-
 std::string storage_of(const EnviHeader& header) {
-    std::string out =
-        std::string(interleave_name(header.interleave)) + " of " + std::string(data_type_name(header.type));
+    std::string out = std::string(interleave_name(header.interleave)) + " of " +
+                      std::string(image::number_name(number_type(header.type)));
     return data_bytes(header.type) > 1 ? out + (header.big_endian ? ", big-endian" : ", little-endian") : out;
-}
-
-bool may_round(DataType type) {
-    return type == DataType::Int32 || type == DataType::Uint32 || type == DataType::Int64 ||
-           type == DataType::Uint64 || type == DataType::Double;
 }
 
 image::Part understand(const EnviHeader& header) {
@@ -131,17 +99,16 @@ image::Part understand(const EnviHeader& header) {
     part.data_window = part.display_window = window;
     part.compression = "none";
     part.storage = storage_of(header);
-    insert_attributes(header, part.header);
-    const auto names = channel_names(header);
-    for (const std::string& name : names)
-        part.channels.push_back({name, SampleType::Float, false});
-    part.layout = parse_channel_layout(names, DecimalMark::Comma);
-    part.layout.dialect = {};  // the names are ours
-    part.layout.warnings.insert(part.layout.warnings.begin(), header.warnings.begin(), header.warnings.end());
-    if (may_round(header.type))
-        part.layout.warnings.push_back("numbers are " + std::string(data_type_name(header.type)) +
-                                       ": they are rounded to float, 24 bits");
-    part.metadata = read_spectral_metadata(part.layout, image::text_attributes(part.header));
+    const auto facts = facts_of(header);
+    const Family family = image::family_of(header.quantity);
+    image::insert_band_attributes(facts, family, header.units, part.header);
+    for (const Field& field : header.fields.fields)
+        if (!is_structural(field.key))
+            insert_field(field, part.header);
+    std::vector<std::string> warnings = header.warnings;
+    if (image::rounds_to_float(number_type(header.type)))
+        warnings.push_back(image::rounding_warning(number_type(header.type)));
+    image::describe_bands(image::channel_names(facts, family), warnings, part);
     return part;
 }
 

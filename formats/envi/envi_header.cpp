@@ -14,15 +14,9 @@ namespace osio::envi {
 
 namespace {
 
-constexpr std::array<std::pair<DataType, std::string_view>, 9> kTypes{{{DataType::Uint8, "uint8"},
-                                                                       {DataType::Int16, "int16"},
-                                                                       {DataType::Int32, "int32"},
-                                                                       {DataType::Float, "float"},
-                                                                       {DataType::Double, "double"},
-                                                                       {DataType::Uint16, "uint16"},
-                                                                       {DataType::Uint32, "uint32"},
-                                                                       {DataType::Int64, "int64"},
-                                                                       {DataType::Uint64, "uint64"}}};
+constexpr std::array<DataType, 9> kTypes{DataType::Uint8,  DataType::Int16,  DataType::Int32,
+                                         DataType::Float,  DataType::Double, DataType::Uint16,
+                                         DataType::Uint32, DataType::Int64,  DataType::Uint64};
 
 constexpr std::array<std::string_view, 3> kInterleaves{"bsq", "bil", "bip"};
 
@@ -106,7 +100,7 @@ class Structure {
         if (code == 6 || code == 9)
             return fail(ErrorCode::Unsupported,
                         "data type " + std::to_string(*code) + " is complex numbers; bands are real ones");
-        for (const auto& [type, name] : kTypes)
+        for (const DataType type : kTypes)
             if (code == static_cast<std::uint64_t>(type)) {
                 m_out.type = type;
                 return {};
@@ -192,12 +186,6 @@ class Structure {
 };
 
 }  // namespace
-
-std::string_view data_type_name(DataType type) {
-    const auto found =
-        std::find_if(kTypes.begin(), kTypes.end(), [type](const auto& known) { return known.first == type; });
-    return found->second;
-}
 
 std::string_view interleave_name(Interleave interleave) {
     return kInterleaves[static_cast<std::size_t>(interleave)];

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <formats/envi/header_fields.h>
+#include <formats/image/number_rows.h>
 
 #include <osio/base/result.h>
 #include <osio/layout/open_words.h>
@@ -27,20 +28,24 @@ enum class DataType : std::uint8_t {
     Uint64 = 15,
 };
 
-[[nodiscard]] constexpr std::size_t data_bytes(DataType type) {
+[[nodiscard]] constexpr image::NumberType number_type(DataType type) {
     switch (type) {
-    case DataType::Uint8: return 1;
-    case DataType::Int16:
-    case DataType::Uint16: return 2;
-    case DataType::Int32:
-    case DataType::Float:
-    case DataType::Uint32: return 4;
-    default: return 8;
+    case DataType::Uint8: return image::NumberType::Uint8;
+    case DataType::Int16: return image::NumberType::Int16;
+    case DataType::Int32: return image::NumberType::Int32;
+    case DataType::Float: return image::NumberType::Float;
+    case DataType::Double: return image::NumberType::Double;
+    case DataType::Uint16: return image::NumberType::Uint16;
+    case DataType::Uint32: return image::NumberType::Uint32;
+    case DataType::Int64: return image::NumberType::Int64;
+    case DataType::Uint64: break;
     }
+    return image::NumberType::Uint64;
 }
 
-/// "uint8", "int16", ..., "float", "double".
-[[nodiscard]] std::string_view data_type_name(DataType type);
+[[nodiscard]] constexpr std::size_t data_bytes(DataType type) {
+    return image::number_bytes(number_type(type));
+}
 
 /// Which index runs fastest in the data file, and which slowest.
 enum class Interleave : std::uint8_t {

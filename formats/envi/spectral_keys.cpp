@@ -3,38 +3,14 @@
 
 #include <osio/base/text.h>
 #include <osio/layout/part_layout.h>
-#include <osio/spectra/wavelength.h>
+#include <osio/spectra/wavelength_unit.h>
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace osio::envi {
 
 namespace {
-
-/// A unit's spellings and how parse_wavelength_nm() writes it.
-struct Unit {
-    std::string_view word;
-    std::string_view suffix;
-};
-
-constexpr std::string_view kWavenumber = "cm-1";
-
-constexpr std::array<Unit, 27> kUnits{{
-    {"nanometers", "nm"},   {"nanometer", "nm"},   {"nanometres", "nm"},
-    {"nanometre", "nm"},    {"nm", "nm"},          {"micrometers", "um"},
-    {"micrometer", "um"},   {"micrometres", "um"}, {"micrometre", "um"},
-    {"microns", "um"},      {"micron", "um"},      {"um", "um"},
-    {"\xC2\xB5m", "um"},    {"\xCE\xBCm", "um"},   {"\xB5m", "um"},
-    {"millimeters", "mm"},  {"mm", "mm"},          {"centimeters", "cm"},
-    {"cm", "cm"},           {"meters", "m"},       {"m", "m"},
-    {"ghz", "GHz"},         {"mhz", "MHz"},        {"thz", "THz"},
-    {"wavenumber", "cm-1"}, {"cm-1", "cm-1"},      {"1/cm", "cm-1"},
-}};
-
-/// Numbers below this are micrometres where no unit is stated: nothing that makes images sees 100 nm.
-constexpr double kLeastNm = 100;
 
 /// Spellings of keys that are met in real files, for the ones that are meant.
 constexpr std::array<std::array<std::string_view, 2>, 5> kMisspelt{{
@@ -85,34 +61,22 @@ Result<std::vector<double>> numbers_of(const EnviHeader& header, const Field& fi
     return out;
 }
 
-/// The unit's suffix, guessed where the header has none; empty where the numbers are no wavelengths.
-std::string_view unit_of(EnviHeader& header, const std::vector<double>& numbers) {
+/// The unit, guessed where the header has none; empty where the numbers are no wavelengths.
+WavelengthUnit unit_of(EnviHeader& header, const std::vector<double>& numbers) {
     const Field* const field = find_spelt(header, "wavelength units");
     const std::string word = field == nullptr ? std::string() : to_lower(trim(field->value));
-    for (const Unit& unit : kUnits)
-        if (unit.word == word)
-            return unit.suffix;
+    if (const auto unit = find_wavelength_unit(word))
+        return *unit;
     if (word == "index") {
         header.warnings.emplace_back("\"wavelength units\" are Index: the bands have no wavelengths");
         return {};
     }
-    const bool micro =
-        std::all_of(numbers.begin(), numbers.end(), [](double number) { return number < kLeastNm; });
+    const WavelengthUnit unit = likely_unit(numbers);
     header.warnings.push_back((word.empty() ? std::string("no \"wavelength units\"")
                                             : "\"wavelength units\" are \"" + field->value + "\"") +
-                              ": the wavelengths are taken as " + (micro ? "micrometres" : "nanometres"));
-    return micro ? "um" : "nm";
-}
-
-/// One item in nm, 0 where it is none: makers fill the places of dead bands with zeros.
-double wavelength_nm(std::string_view item, double number, std::string_view unit) {
-    if (number <= 0)
-        return 0;
-    if (unit == kWavenumber)
-        return 1e7 / number;
-    if (item.starts_with('+'))
-        item.remove_prefix(1);
-    return parse_wavelength_nm(std::string(item) + std::string(unit), DecimalMark::Point).value_or(0);
+                              ": the wavelengths are taken as " +
+                              (unit == "um" ? "micrometres" : "nanometres"));
+    return unit;
 }
 
 Result<void> read_wavelengths(EnviHeader& header) {
@@ -123,12 +87,12 @@ Result<void> read_wavelengths(EnviHeader& header) {
     }
     OSIO_TRY(const auto items, items_by_band(header, *field));
     OSIO_TRY(const auto numbers, numbers_of(header, *field));
-    const std::string_view unit = unit_of(header, numbers);
+    const WavelengthUnit unit = unit_of(header, numbers);
     if (unit.empty())
         return {};
     std::size_t without = 0;
     for (std::size_t band = 0; band < items.size(); ++band) {
-        header.wavelengths_nm.push_back(wavelength_nm(items[band], numbers[band], unit));
+        header.wavelengths_nm.push_back(nm_of(items[band], unit));
         without += header.wavelengths_nm.back() == 0;
     }
     if (without > 0)
@@ -136,13 +100,8 @@ Result<void> read_wavelengths(EnviHeader& header) {
                                   " bands have no wavelength above 0 and are left out of the set");
 
     OSIO_TRY(const auto widths, numbers_by_band(header, "fwhm"));
-    for (std::size_t band = 0; band < widths.size(); ++band) {
-        // Of frequencies and wavenumbers v, to first order: dl/l = dv/v.
-        const double nm = header.wavelengths_nm[band];
-        const bool reciprocal = unit.ends_with("Hz") || unit == kWavenumber;
-        header.fwhm_nm.push_back(reciprocal ? nm * widths[band] / numbers[band]
-                                            : wavelength_nm(format_double(widths[band]), widths[band], unit));
-    }
+    for (std::size_t band = 0; band < widths.size(); ++band)
+        header.fwhm_nm.push_back(width_nm(widths[band], numbers[band], header.wavelengths_nm[band], unit));
     return {};
 }
 

@@ -40,15 +40,24 @@ RawFile::~RawFile() {
         ::close(m_descriptor);
 }
 
-Result<void> RawFile::read(std::uint64_t at, std::uint64_t count, std::string& out) const {
+Result<void> RawFile::check(std::uint64_t at, std::uint64_t count) const {
     if (at > m_size || count > m_size - at)
         return fail(ErrorCode::Damaged, std::to_string(count) + " bytes at " + std::to_string(at) +
                                             " lie beyond the end of the file (" + std::to_string(m_size) +
                                             " bytes)");
+    return {};
+}
+
+Result<void> RawFile::read(std::uint64_t at, std::uint64_t count, std::string& out) const {
+    OSIO_CHECK_OK(check(at, count));
     out.resize(count);
+    return read(at, count, reinterpret_cast<std::byte*>(out.data()));
+}
+
+Result<void> RawFile::read(std::uint64_t at, std::uint64_t count, std::byte* out) const {
+    OSIO_CHECK_OK(check(at, count));
     for (std::uint64_t done = 0; done < count;) {
-        const ssize_t got =
-            ::pread(m_descriptor, out.data() + done, count - done, static_cast<off_t>(at + done));
+        const ssize_t got = ::pread(m_descriptor, out + done, count - done, static_cast<off_t>(at + done));
         if (got < 0 && errno == EINTR)
             continue;
         if (got < 0)

@@ -3,6 +3,7 @@
 
 #include <osio/base/result.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -26,7 +27,13 @@ class RawFile {
     /// `count` bytes from `at` on into `out`, which is resized. Damaged where the file ends before.
     [[nodiscard]] Result<void> read(std::uint64_t at, std::uint64_t count, std::string& out) const;
 
+    /// The same into memory of the caller's.
+    [[nodiscard]] Result<void> read(std::uint64_t at, std::uint64_t count, std::byte* out) const;
+
   private:
+    /// Damaged where the bytes lie beyond the end.
+    [[nodiscard]] Result<void> check(std::uint64_t at, std::uint64_t count) const;
+
     RawFile(int descriptor, std::uint64_t size) : m_descriptor(descriptor), m_size(size) {}
 
     int m_descriptor;

@@ -109,7 +109,7 @@ void expect_numbers(const std::string& path, const std::string& bytes, const Pla
                                   static_cast<std::uint64_t>(range.first) + y, *planes[p]);
                     const auto expected = static_cast<float>(meaning(number, *planes[p]));
                     ASSERT_TRUE(found == expected || (std::isnan(found) && std::isnan(expected)))
-                        << data_type_name(header.type) << " " << interleave_name(header.interleave) << " at "
+                        << image::number_name(number_type(header.type)) << " " << interleave_name(header.interleave) << " at "
                         << x << "," << y << " band " << *planes[p] << ": " << found << " for " << expected;
                 }
         }

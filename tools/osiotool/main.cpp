@@ -120,7 +120,7 @@ class CommandLine {
     void add_info() {
         CLI::App* const command = add("info", "what a file holds: parts, bands, units, warnings",
                                       [this] { return run_info(m_info); });
-        command->add_option("file", m_info.input, "OpenEXR or ENVI file")->required();
+        command->add_option("file", m_info.input, "OpenEXR, ENVI or TIFF file, or list of band files")->required();
         add_open_options(*command, m_info.request);
         command->add_flag("--json", m_info.json, "as JSON");
     }
@@ -137,7 +137,7 @@ class CommandLine {
     void add_collapse() {
         CLI::App* const command =
             add("collapse", "bands to a colour image", [this] { return run_collapse(m_collapse); });
-        command->add_option("input", m_collapse.input, "spectral OpenEXR or ENVI file")->required();
+        command->add_option("input", m_collapse.input, "spectral image")->required();
         command->add_option("output", m_collapse.output, "image; .exr, .png, .tif, ...")->required();
         add_request_options(*command, m_collapse.request);
         command->add_option("-d", m_collapse.depth, "type of the output's samples")
@@ -171,7 +171,7 @@ class CommandLine {
     void add_plan() {
         CLI::App* const command = add("plan", "what a collapse would do: recipe, weights, provenance",
                                       [this] { return run_plan(m_plan); });
-        command->add_option("input", m_plan.input, "spectral OpenEXR or ENVI file")->required();
+        command->add_option("input", m_plan.input, "spectral image")->required();
         add_request_options(*command, m_plan.request, {"max-delta-e", "white-luminance"});
         command->add_flag("--json", m_plan.json, "as JSON");
     }
@@ -181,7 +181,7 @@ class CommandLine {
                                       [this] { return run_convert(m_convert); });
         command
             ->add_option("files", m_convert.files,
-                         "input, then output: .exr, .spexr, or .hdr for ENVI; several inputs with --assemble")
+                         "input, then output: .exr, .spexr, .hdr for ENVI, or .tif; several inputs with --assemble")
             ->required()
             ->expected(2, -1)
             ->type_name("IN... OUT");
@@ -202,7 +202,7 @@ class CommandLine {
         word("--frames", m_convert.frames, "1-10x2,15", "once for each; names need %04d or ####");
         word("-d", m_convert.depth, "half|float", "of .exr; default: as they are");
         command->add_flag("--half", m_convert.half, "the same as -d half");
-        word("--compression", m_convert.compression, "C", "of .exr; default zip");
+        word("--compression", m_convert.compression, "C", "of .exr; default zip; of .tif none or zip");
         word("--tile", m_convert.tile, "WxH", "of .exr; default: scanlines");
         word("--preview", m_convert.preview, "LIGHT|none", "of .exr: R, G, B made of the bands");
         command->add_flag("--multi-part", m_convert.multi_part,
@@ -225,7 +225,7 @@ class CommandLine {
     void add_difference() {
         CLI::App* const command = add("difference", "colour difference CIEDE2000 between two images",
                                       [this] { return run_difference(m_difference); });
-        command->add_option("a", m_difference.a, "spectral, RGB or XYZ OpenEXR file, or ENVI")->required();
+        command->add_option("a", m_difference.a, "spectral image, or RGB or XYZ OpenEXR file")->required();
         command->add_option("b", m_difference.b, "the same")->required();
         add_request_options(
             *command, m_difference.request,
@@ -248,7 +248,7 @@ class CommandLine {
     void add_photometry() {
         CLI::App* const command = add("photometry", "luminance of a radiance image, or efficacy of a light",
                                       [this] { return run_photometry(m_photometry); });
-        command->add_option("input", m_photometry.input, "spectral OpenEXR or ENVI file; none: --illuminant");
+        command->add_option("input", m_photometry.input, "spectral image; none: --illuminant");
         command->add_option("output", m_photometry.output, "luminance image, .exr");
         add_request_options(*command, m_photometry.request,
                             {"to", "config", "names", "adapt", "observer", "white", "display", "scale",

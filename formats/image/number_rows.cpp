@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <formats/envi/sample_rows.h>
+#include <formats/image/number_rows.h>
+
+#include <Imath/half.h>
 
 #include <algorithm>
 #include <array>
@@ -10,7 +12,7 @@
 #include <limits>
 #include <type_traits>
 
-namespace osio::envi {
+namespace osio::image {
 
 namespace {
 
@@ -21,9 +23,7 @@ T load(const std::byte* from) {
     std::memcpy(bytes.data(), from, sizeof(T));
     if constexpr (swapped)
         std::reverse(bytes.begin(), bytes.end());
-    T out;
-    std::memcpy(&out, bytes.data(), sizeof(T));
-    return out;
+    return std::bit_cast<T>(bytes);
 }
 
 /// Rounds to the nearest float, beyond the largest to infinity: the cast alone promises no such thing.
@@ -64,26 +64,34 @@ Convert choose(bool swapped) {
     return swapped ? &convert<T, true> : &convert<T, false>;
 }
 
-Convert converter(DataType type, bool swapped) {
+Convert converter(NumberType type, bool swapped) {
     switch (type) {
-    case DataType::Uint8: return choose<std::uint8_t>(false);
-    case DataType::Int16: return choose<std::int16_t>(swapped);
-    case DataType::Int32: return choose<std::int32_t>(swapped);
-    case DataType::Float: return choose<float>(swapped);
-    case DataType::Double: return choose<double>(swapped);
-    case DataType::Uint16: return choose<std::uint16_t>(swapped);
-    case DataType::Uint32: return choose<std::uint32_t>(swapped);
-    case DataType::Int64: return choose<std::int64_t>(swapped);
-    case DataType::Uint64: break;
+    case NumberType::Uint8: return choose<std::uint8_t>(false);
+    case NumberType::Int8: return choose<std::int8_t>(false);
+    case NumberType::Uint16: return choose<std::uint16_t>(swapped);
+    case NumberType::Int16: return choose<std::int16_t>(swapped);
+    case NumberType::Uint32: return choose<std::uint32_t>(swapped);
+    case NumberType::Int32: return choose<std::int32_t>(swapped);
+    case NumberType::Uint64: return choose<std::uint64_t>(swapped);
+    case NumberType::Int64: return choose<std::int64_t>(swapped);
+    case NumberType::Half: return choose<Imath::half>(swapped);
+    case NumberType::Float: return choose<float>(swapped);
+    case NumberType::Double: break;
     }
-    return choose<std::uint64_t>(swapped);
+    return choose<double>(swapped);
 }
+
+constexpr std::array<std::string_view, 11> kNames{"uint8",  "int8",  "uint16", "int16", "uint32", "int32",
+                                                  "uint64", "int64", "half",   "float", "double"};
 
 }  // namespace
 
-Scaling Scaling::of(const EnviHeader& header, std::size_t band) {
-    return {header.gain.empty() ? 1 : header.gain[band], header.offset.empty() ? 0 : header.offset[band],
-            header.divisor, header.ignore_value};
+std::string_view number_name(NumberType type) {
+    return kNames[static_cast<std::size_t>(type)];
+}
+
+std::string rounding_warning(NumberType type) {
+    return "numbers are " + std::string(number_name(type)) + ": they are rounded to float, 24 bits";
 }
 
 double Scaling::apply(double number) const {
@@ -92,10 +100,10 @@ double Scaling::apply(double number) const {
     return (number * gain + offset) / divisor;
 }
 
-void to_floats(const std::byte* from, std::size_t stride, std::size_t count, DataType type, bool big_endian,
+void to_floats(const std::byte* from, std::size_t stride, std::size_t count, NumberType type, bool big_endian,
                const Scaling& scaling, float* to) {
     const bool swapped = big_endian != (std::endian::native == std::endian::big);
-    converter(type, swapped)(from, stride * data_bytes(type), count, scaling, to);
+    converter(type, swapped)(from, stride * number_bytes(type), count, scaling, to);
 }
 
-}  // namespace osio::envi
+}  // namespace osio::image
