@@ -32,7 +32,7 @@ LIBRARIES = {
     r"OpenColorIO/": r"plugins/ocio/",
     r"fmt/": r"tools/osiotool/",
     r"CLI/": r"tools/osiotool/main\.cpp",
-    r"nlohmann/": r"formats/image/certificate_json\.cpp|tools/osiotool/report_(trade_)?json\.cpp",
+    r"nlohmann/": r"formats/image/certificate_json\.cpp|tools/osiotool/json_text\.h",
 }
 
 OWN = re.compile(r"(osio|formats|plugins|tools)/")

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <tools/osiotool/json_text.h>
 #include <tools/osiotool/report_trade.h>
-
-#include <nlohmann/json.hpp>
 
 namespace osio::tool {
 
 std::string trade_json(const std::string& input, const trade::Table& table) {
-    using Json = nlohmann::ordered_json;
     Json choices = Json::array();
     for (const trade::Offer& offer : table.offers) {
         const trade::Cost& cost = offer.cost;
@@ -32,14 +30,13 @@ std::string trade_json(const std::string& input, const trade::Table& table) {
                            {"largest_xyz", offer.worth.largest_xyz},
                            {"front", offer.on_front}});
     }
-    const Json out{{"input", input},
-                   {"recipe", table.recipe},
-                   {"white_luminance", table.white_luminance},
-                   {"white_luminance_from", table.white_reason},
-                   {"runs", table.runs},
-                   {"workers", table.workers},
-                   {"choices", std::move(choices)}};
-    return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return dump({{"input", input},
+                 {"recipe", table.recipe},
+                 {"white_luminance", table.white_luminance},
+                 {"white_luminance_from", table.white_reason},
+                 {"runs", table.runs},
+                 {"workers", table.workers},
+                 {"choices", std::move(choices)}});
 }
 
 }  // namespace osio::tool
