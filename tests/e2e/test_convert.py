@@ -52,6 +52,7 @@ FORMATS = [
     Format(".hdr", "--interleave", "bsq"),
     Format(".hdr", "--interleave", "bil"),
     Format(".hdr", "--interleave", "bip"),
+    Format(".tif"),
 ]
 
 
