@@ -82,28 +82,17 @@ class DerivedReader final : public BlockReader {
     std::vector<std::vector<std::byte>> m_copies;
 };
 
-class DerivedSource final : public BlockSource {
+class DerivedSource final : public WrappedSource {
   public:
     DerivedSource(std::unique_ptr<BlockSource> source, Planes planes)
-        : m_source(std::move(source)), m_planes(std::move(planes)) {}
-
-    [[nodiscard]] int width() const override { return m_source->width(); }
-
-    [[nodiscard]] std::size_t block_count() const override { return m_source->block_count(); }
-
-    [[nodiscard]] std::size_t block_of_row(int row) const override { return m_source->block_of_row(row); }
-
-    [[nodiscard]] RowRange rows_of_block(std::size_t block) const override {
-        return m_source->rows_of_block(block);
-    }
+        : WrappedSource(std::move(source)), m_planes(std::move(planes)) {}
 
     [[nodiscard]] Result<std::unique_ptr<BlockReader>> start_reader() const override {
-        OSIO_TRY(auto reader, m_source->start_reader());
+        OSIO_TRY(auto reader, inner().start_reader());
         return std::make_unique<DerivedReader>(std::move(reader), m_planes);
     }
 
   private:
-    std::unique_ptr<BlockSource> m_source;
     Planes m_planes;
 };
 

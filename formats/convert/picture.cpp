@@ -21,10 +21,7 @@ Result<Choice> with_picture(Choice choice, const std::string& light) {
         }
     // The plan is that of the file that is written: of the bands that stay and of what is still said of them.
     const image::Part written = described_part(std::move(described), choice.attributes);
-    const auto set =
-        std::find_if(written.layout.sets.begin(), written.layout.sets.end(),
-                     [&](const SpectralSet& other) { return other.name() == choice.set.name(); });
-    auto plan = image::preview_plan(*set, written.metadata, light);
+    auto plan = image::preview_plan(*written.layout.find_set(choice.set.name()), written.metadata, light);
     if (!plan)
         return fail_in(choice.image->path(), std::move(plan).error());
     for (std::size_t row = 0; row < names.size(); ++row) {
@@ -41,9 +38,7 @@ Result<Choice> with_picture(Choice choice, const std::string& light) {
     out.image = derive_image(choice.image, choice.part_index, std::move(channels), choice.attributes);
     for (std::size_t channel = 0; channel < count; ++channel)
         out.channels.push_back(channel);
-    const auto& sets = out.part().layout.sets;
-    out.set = *std::find_if(sets.begin(), sets.end(),
-                            [&](const SpectralSet& other) { return other.name() == choice.set.name(); });
+    out.set = *out.part().layout.find_set(choice.set.name());
     out.attributes = choice.attributes;
     out.lost = choice.lost;
     return out;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/exr/checksum.h>
+#include <formats/image/header_attributes.h>
 
 #include <osio/layout/spectral_metadata.h>
 
@@ -105,7 +106,7 @@ const RawAttribute* find_checksum(const RawHeader& header) {
 }
 
 void reserve_checksum(std::size_t chunk_count, Imf::Header& header) {
-    header.erase(attribute::kChecksum);
+    image::erase_attributes({attribute::kChecksum}, header);
     Checksum empty;
     empty.chunks.resize(chunk_count);
     header.insert(attribute::kChecksum, ChecksumAttribute(empty.bytes()));

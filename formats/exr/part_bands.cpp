@@ -22,8 +22,7 @@ Result<PartLayout> layout_of(const image::Part& part, const OpenWords& words) {
 }
 
 void take(PartLayout layout, image::Part& part) {
-    for (const std::string& name : layout.replaced)
-        part.header.erase(name);
+    image::erase_attributes({layout.replaced.begin(), layout.replaced.end()}, part.header);
     for (const auto& [name, value] : layout.attributes)
         part.header.insert(name, Imf::StringAttribute(value));
     part.layout = std::move(layout.layout);

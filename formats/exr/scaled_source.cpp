@@ -58,28 +58,17 @@ class ScaledReader final : public BlockReader {
     std::vector<std::vector<std::byte>> m_planes;
 };
 
-class ScaledSource final : public BlockSource {
+class ScaledSource final : public WrappedSource {
   public:
     ScaledSource(std::unique_ptr<BlockSource> source, std::vector<double> factors)
-        : m_source(std::move(source)), m_factors(std::move(factors)) {}
-
-    [[nodiscard]] int width() const override { return m_source->width(); }
-
-    [[nodiscard]] std::size_t block_count() const override { return m_source->block_count(); }
-
-    [[nodiscard]] std::size_t block_of_row(int row) const override { return m_source->block_of_row(row); }
-
-    [[nodiscard]] RowRange rows_of_block(std::size_t block) const override {
-        return m_source->rows_of_block(block);
-    }
+        : WrappedSource(std::move(source)), m_factors(std::move(factors)) {}
 
     [[nodiscard]] Result<std::unique_ptr<BlockReader>> start_reader() const override {
-        OSIO_TRY(auto reader, m_source->start_reader());
+        OSIO_TRY(auto reader, inner().start_reader());
         return std::make_unique<ScaledReader>(std::move(reader), m_factors);
     }
 
   private:
-    std::unique_ptr<BlockSource> m_source;
     std::vector<double> m_factors;
 };
 

@@ -127,29 +127,18 @@ class BlackRowsReader final : public BlockReader {
     std::vector<std::byte> m_zeros;
 };
 
-class BlackRowsSource final : public BlockSource {
+class BlackRowsSource final : public WrappedSource {
   public:
     BlackRowsSource(std::unique_ptr<BlockSource> source, std::vector<BadRows> bad,
                     std::vector<SampleType> types)
-        : m_source(std::move(source)), m_bad(std::move(bad)), m_types(std::move(types)) {}
-
-    [[nodiscard]] int width() const override { return m_source->width(); }
-
-    [[nodiscard]] std::size_t block_count() const override { return m_source->block_count(); }
-
-    [[nodiscard]] std::size_t block_of_row(int row) const override { return m_source->block_of_row(row); }
-
-    [[nodiscard]] RowRange rows_of_block(std::size_t block) const override {
-        return m_source->rows_of_block(block);
-    }
+        : WrappedSource(std::move(source)), m_bad(std::move(bad)), m_types(std::move(types)) {}
 
     [[nodiscard]] Result<std::unique_ptr<BlockReader>> start_reader() const override {
-        OSIO_TRY(auto reader, m_source->start_reader());
-        return std::make_unique<BlackRowsReader>(std::move(reader), *m_source, m_bad, m_types);
+        OSIO_TRY(auto reader, inner().start_reader());
+        return std::make_unique<BlackRowsReader>(std::move(reader), inner(), m_bad, m_types);
     }
 
   private:
-    std::unique_ptr<BlockSource> m_source;
     std::vector<BadRows> m_bad;
     std::vector<SampleType> m_types;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/exr/spectral_header.h>
+#include <formats/image/header_attributes.h>
 
 #include <osio/layout/channel_name.h>
 #include <osio/layout/spectral_metadata.h>
@@ -44,8 +45,11 @@ void rename_sensitivities(const std::vector<std::string>& written, Imf::Header& 
         if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute()))
             if (parse_channel_name(a.name(), DecimalMark::Comma))
                 curves.emplace_back(a.name(), text->value());
+    std::set<std::string, std::less<>> old;
+    for (const auto& [name, value] : curves)
+        old.insert(name);
+    image::erase_attributes(old, header);
     for (const auto& [name, value] : curves) {
-        header.erase(name);
         const auto band = parse_channel_name(name, DecimalMark::Comma);
         for (const std::string& channel : written)
             if (parse_channel_name(channel, DecimalMark::Comma) == band)

@@ -100,10 +100,7 @@ Result<std::unique_ptr<Certifier>> Certifier::create(const CollapseJob& job, Sto
 
 void Certifier::compare_everywhere(const CollapseJob& job, const TextLoader& load_text,
                                    BudgetSubject& subject) {
-    const Part& part = job.part();
-    for (const SpectralSet& set : part.layout.sets)
-        if (set.name() == job.plan.request.set)
-            m_alternatives = basis_alternatives(job.plan, set, part.metadata, load_text);
+    m_alternatives = basis_alternatives(job.plan, job.set(), job.part().metadata, load_text);
     for (const CollapsePlan& plan : m_alternatives) {
         m_certificate.alternatives.emplace_back(basis_name(plan.basis.basis));
         subject.alternatives.push_back(&plan);

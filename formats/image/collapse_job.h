@@ -33,6 +33,9 @@ struct CollapseJob {
 
     [[nodiscard]] const Part& part() const { return file->parts()[part_index]; }
 
+    /// The bands that the plan is for.
+    [[nodiscard]] const SpectralSet& set() const { return *part().layout.find_set(plan.request.set); }
+
     /// Names of the result's channels, alpha last.
     [[nodiscard]] std::vector<std::string> channel_names() const;
 

@@ -34,4 +34,19 @@ HeaderAttributes header_attributes(const Imf::Header& header) {
     return out;
 }
 
+void erase_attributes(const std::set<std::string, std::less<>>& names, Imf::Header& header) {
+    Imf::Header kept(header.displayWindow(), header.dataWindow());
+    bool erased = false;
+    for (auto a = header.begin(); a != header.end(); ++a)
+        if (names.contains(a.name()))
+            erased = true;
+        else
+            kept.insert(a.name(), a.attribute());
+    if (!erased)
+        return;
+    kept.zipCompressionLevel() = header.zipCompressionLevel();
+    kept.dwaCompressionLevel() = header.dwaCompressionLevel();
+    header = kept;
+}
+
 }  // namespace osio::image

@@ -32,12 +32,7 @@ class ChoiceMaker {
             m_out.planes.emplace_back(column.channel);
         m_out.types = job.column_types();
         find_preview();
-        for (const SpectralSet& set : job.part().layout.sets)
-            if (set.name() == m_plan.request.set)
-                m_set = set;
-        std::optional<CollapsePlan> xyz;
-        find_xyz({}, xyz);
-        if (xyz)
+        if (const auto xyz = xyz_plan({}))
             if (const auto matrix = fit_matrix(columns_of(xyz->weights), columns_of(m_plan.weights)))
                 m_output_from_xyz = *matrix;
     }
@@ -89,8 +84,8 @@ class ChoiceMaker {
         return out;
     }
 
-    /// The plan for X, Y, Z, Y = 1 for the diffuser, and from it to R, G, B with the adaptation of the plan.
-    void find_xyz(std::string_view light, std::optional<CollapsePlan>& out) const {
+    /// The plan for X, Y, Z, Y = 1 for the diffuser, under the job's light or another.
+    [[nodiscard]] Result<CollapsePlan> xyz_plan(std::string_view light) const {
         CollapseRequest request = m_plan.request;
         if (!light.empty())
             request.illuminant = light;
@@ -99,8 +94,7 @@ class ChoiceMaker {
         request.adaptation = CollapseRequest{}.adaptation;
         request.exposure_stops = 0;
         request.scale = Scale::Relative;
-        if (auto plan = make_plan(m_set, m_job.part().metadata, request, m_load_text))
-            out = std::move(*plan);
+        return make_plan(m_job.set(), m_job.part().metadata, request, m_load_text);
     }
 
     [[nodiscard]] static std::vector<Vector3> columns_of(const WeightMatrix& weights) {
@@ -128,7 +122,7 @@ class ChoiceMaker {
                 continue;
             CollapseRequest request = m_plan.request;
             request.basis = info.basis;
-            if (const auto plan = make_plan(m_set, m_job.part().metadata, request, m_load_text))
+            if (const auto plan = make_plan(m_job.set(), m_job.part().metadata, request, m_load_text))
                 add({"basis " + std::string(info.name), "the bands as " + std::string(info.meaning),
                      widened(plan->weights)});
         }
@@ -136,7 +130,7 @@ class ChoiceMaker {
 
     /// Every so many bands, with the weights that those alone have.
     void add_fewer_bands(std::size_t step) {
-        SpectralSet fewer = m_set;
+        SpectralSet fewer = m_job.set();
         fewer.bands.clear();
         fewer.reradiation.clear();
         std::vector<std::size_t> kept;
@@ -171,8 +165,7 @@ class ChoiceMaker {
         bake.observer = m_plan.observer.id;
         bake.keep_white = true;
         const auto baked = bake_matrix(bake, m_load_text);
-        std::optional<CollapsePlan> under;
-        find_xyz(kColourLight, under);
+        const auto under = xyz_plan(kColourLight);
         if (!baked || !under)
             return;
         const std::string light(kColourLight);
@@ -304,7 +297,6 @@ class ChoiceMaker {
     Matrix3 m_output_from_share;
     /// With exposure, scale and adaptation of the plan; nothing for fewer than three bands.
     std::optional<Matrix3> m_output_from_xyz;
-    SpectralSet m_set;
     std::size_t m_preview_at = 0;
     Choices m_out;
 };

@@ -133,6 +133,7 @@ Workbench::~Workbench() {
 Result<std::unique_ptr<Workbench>> Workbench::create(const image::CollapseJob& job, Choices choices,
                                                      MemoryMeter meter) {
     std::error_code error;
+    // mkdtemp() takes six X for the letters that make the name its own.
     std::string folder = (std::filesystem::temp_directory_path(error) / "osio-trade-XXXXXX").string();
     if (error || ::mkdtemp(folder.data()) == nullptr)
         return fail(ErrorCode::Io, std::strerror(errno), folder);

@@ -28,23 +28,13 @@ class Stopwatch {
 };
 
 /// A source whose readers are timed.
-class TimedSource final : public BlockSource {
+class TimedSource final : public WrappedSource {
   public:
     TimedSource(std::unique_ptr<BlockSource> source, Stopwatch& watch)
-        : m_source(std::move(source)), m_watch(watch) {}
-
-    [[nodiscard]] int width() const override { return m_source->width(); }
-
-    [[nodiscard]] std::size_t block_count() const override { return m_source->block_count(); }
-
-    [[nodiscard]] std::size_t block_of_row(int row) const override { return m_source->block_of_row(row); }
-
-    [[nodiscard]] RowRange rows_of_block(std::size_t block) const override {
-        return m_source->rows_of_block(block);
-    }
+        : WrappedSource(std::move(source)), m_watch(watch) {}
 
     [[nodiscard]] Result<std::unique_ptr<BlockReader>> start_reader() const override {
-        OSIO_TRY(auto reader, m_source->start_reader());
+        OSIO_TRY(auto reader, inner().start_reader());
         return std::make_unique<Reader>(std::move(reader), m_watch);
     }
 
@@ -63,7 +53,6 @@ class TimedSource final : public BlockSource {
         Stopwatch& m_watch;
     };
 
-    std::unique_ptr<BlockSource> m_source;
     Stopwatch& m_watch;
 };
 

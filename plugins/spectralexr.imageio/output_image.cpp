@@ -7,6 +7,7 @@
 #include <formats/exr/output_header.h>
 #include <formats/exr/spectral_header.h>
 #include <formats/image/colour_attributes.h>
+#include <formats/image/header_attributes.h>
 #include <formats/image/preview_plan.h>
 
 #include <osio/collapse/kernel.h>
@@ -142,18 +143,17 @@ Imf::Header OutputImage::header() const {
         out.setTileDescription(Imf::TileDescription(static_cast<unsigned>(m_spec.tile_width),
                                                     static_cast<unsigned>(m_spec.tile_height)));
     insert_metadata(m_spec, out);
-    for (const char* name : {image::attribute::kRecipe, image::attribute::kPlan, image::attribute::kWarnings,
-                             kSourceAttribute, kSourcePartAttribute, kFsyncAttribute, kPreviewAttribute})
-        out.erase(name);
+    image::erase_attributes({image::attribute::kRecipe, image::attribute::kPlan, image::attribute::kWarnings,
+                             kSourceAttribute, kSourcePartAttribute, kFsyncAttribute, kPreviewAttribute},
+                            out);
     if (has_bands())
         exr::complete_spectral_header(m_layout, out);
     if (m_picture)
         image::insert_preview_attributes(*m_picture, out);
-    if (m_stale) {
-        out.erase(image::attribute::kChromaticities);
-        out.erase(image::attribute::kPreviewRecipe);
-        out.erase(std::string(attribute::kExposureValue));
-    }
+    if (m_stale)
+        image::erase_attributes({image::attribute::kChromaticities, image::attribute::kPreviewRecipe,
+                                 std::string(attribute::kExposureValue)},
+                                out);
     return out;
 }
 

@@ -23,8 +23,6 @@ class Trade(OsioCase):
     def test_choices_are_worth_what_making_them_gives(self):
         _, choices = self.trade("a.exr", "--to", "xyz", "--illuminant", "FL2")
         for name, options in (("basis linear", ("--basis", "linear")), ("basis bins", ("--basis", "bins"))):
-            report = self.osiotool_json("difference", "a.exr", "a.exr", "--illuminant", "FL2")
-            self.assertEqual(report["max"], 0)
             for basis, out in (("auto", "auto.exr"), (options[1], "other.exr")):
                 self.osiotool("collapse", "a.exr", out, "--to", "lab", "--illuminant", "FL2", "--basis", basis, "--quiet")
             a, b = (self.in_order(n, ["L*", "a*", "b*"]).astype(np.float64) for n in ("auto.exr", "other.exr"))

@@ -5,6 +5,7 @@
 #include <formats/image/open_image.h>
 
 #include <support/exr_files.h>
+#include <support/samples.h>
 
 #include <gtest/gtest.h>
 
@@ -81,40 +82,15 @@ using Meaning = double (*)(double number, std::uint64_t band);
 void expect_numbers(const std::string& path, const std::string& bytes, const PlaneChannels& planes,
                     Grain grain, Meaning meaning) {
     const auto file = EnviFile::open(path).value();
-    const auto source = file->make_block_source(0, planes, grain);
-    ASSERT_TRUE(source) << source.error().text();
-    const auto reader = (*source)->start_reader().value();
-    std::uint64_t rows = 0;
-    for (std::size_t index = (*source)->block_count(); index-- > 0;) {
-        const auto block = reader->read(index);
-        ASSERT_TRUE(block) << block.error().text();
-        const RowRange range = (*source)->rows_of_block(index);
-        ASSERT_EQ(block->first_row, range.first);
-        ASSERT_EQ(block->row_count, range.last - range.first + 1);
-        EXPECT_EQ((*source)->block_of_row(range.first), index);
-        EXPECT_EQ((*source)->block_of_row(range.last), index);
-        rows += static_cast<std::uint64_t>(block->row_count);
-        for (std::size_t p = 0; p < planes.size(); ++p) {
-            ASSERT_EQ(block->planes[p].data != nullptr, planes[p].has_value());
-            if (!planes[p])
-                continue;
-            for (std::uint64_t y = 0; y < static_cast<std::uint64_t>(block->row_count); ++y)
-                for (std::uint64_t x = 0; x < kSamples; ++x) {
-                    float found = 0;
-                    std::memcpy(&found, block->planes[p].data + (y * kSamples + x) * sizeof found,
-                                sizeof found);
-                    const EnviHeader& header = file->header();
-                    const double number =
-                        number_at(header.type, bytes, header.interleave, header.big_endian, x,
-                                  static_cast<std::uint64_t>(range.first) + y, *planes[p]);
-                    const auto expected = static_cast<float>(meaning(number, *planes[p]));
-                    ASSERT_TRUE(found == expected || (std::isnan(found) && std::isnan(expected)))
-                        << image::number_name(number_type(header.type)) << " " << interleave_name(header.interleave) << " at "
-                        << x << "," << y << " band " << *planes[p] << ": " << found << " for " << expected;
-                }
-        }
-    }
-    EXPECT_EQ(rows, kLines);
+    const EnviHeader& header = file->header();
+    const auto expected = [&](std::size_t plane, std::size_t x, std::size_t y) {
+        const std::size_t band = *planes[plane];
+        return static_cast<float>(
+            meaning(number_at(header.type, bytes, header.interleave, header.big_endian, x, y, band), band));
+    };
+    test::expect_samples(*file, planes, grain, expected,
+                         std::string(image::number_name(number_type(header.type))) + " " +
+                             std::string(interleave_name(header.interleave)));
 }
 
 const std::vector<PlaneChannels> kChoices{{0U, 1U, 2U, 3U, 4U}, {4U, {}, 1U}, {2U}};

@@ -8,6 +8,7 @@
 #include <formats/tiff/tiff_file.h>
 
 #include <support/exr_files.h>
+#include <support/samples.h>
 
 #include <Imath/half.h>
 #include <gtest/gtest.h>
@@ -186,42 +187,15 @@ void expect_numbers(const std::string& path, const TestTiff& written, const std:
                     const PlaneChannels& planes, Grain grain, Meaning meaning = itself) {
     const auto file = image::open_image(path);
     ASSERT_TRUE(file) << file.error().text();
-    const auto source = (*file)->make_block_source(0, planes, grain);
-    ASSERT_TRUE(source) << source.error().text();
-    const auto reader = (*source)->start_reader().value();
-    std::uint32_t rows = 0;
-    for (std::size_t index = (*source)->block_count(); index-- > 0;) {
-        const auto block = reader->read(index);
-        ASSERT_TRUE(block) << block.error().text();
-        const RowRange range = (*source)->rows_of_block(index);
-        ASSERT_EQ(block->first_row, range.first);
-        ASSERT_EQ(block->row_count, range.last - range.first + 1);
-        rows += static_cast<std::uint32_t>(block->row_count);
-        for (std::size_t p = 0; p < planes.size(); ++p) {
-            ASSERT_EQ(block->planes[p].data != nullptr, planes[p].has_value());
-            if (!planes[p])
-                continue;
-            const std::size_t page = written.pages > 1 ? *planes[p] : 0;
-            const std::size_t sample = written.pages > 1 ? 0 : *planes[p];
-            for (std::size_t y = 0; y < static_cast<std::size_t>(block->row_count); ++y)
-                for (std::size_t x = 0; x < kWidth; ++x) {
-                    float found = 0;
-                    std::memcpy(&found, block->planes[p].data + (y * kWidth + x) * sizeof found,
-                                sizeof found);
-                    const std::size_t at =
-                        ((page * kHeight + static_cast<std::size_t>(range.first) + y) * kWidth + x) *
-                            written.samples +
-                        sample;
-                    const auto expected =
-                        static_cast<float>(meaning(number_at(written.type, numbers, at), sample));
-                    ASSERT_TRUE(found == expected || (std::isnan(found) && std::isnan(expected)))
-                        << image::number_name(written.type) << " packed by " << written.compression << " in "
-                        << written.mode << " at " << x << "," << y << " plane " << p << ": " << found
-                        << " for " << expected;
-                }
-        }
-    }
-    EXPECT_EQ(rows, kHeight);
+    const auto expected = [&](std::size_t plane, std::size_t x, std::size_t y) {
+        const std::size_t page = written.pages > 1 ? *planes[plane] : 0;
+        const std::size_t sample = written.pages > 1 ? 0 : *planes[plane];
+        const std::size_t at = ((page * kHeight + y) * kWidth + x) * written.samples + sample;
+        return static_cast<float>(meaning(number_at(written.type, numbers, at), sample));
+    };
+    test::expect_samples(**file, planes, grain, expected,
+                         std::string(image::number_name(written.type)) + " packed by " +
+                             std::to_string(written.compression) + " in " + written.mode);
 }
 
 void expect_numbers(const TestTiff& written, Meaning meaning = itself) {

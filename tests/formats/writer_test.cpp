@@ -161,6 +161,14 @@ struct Picture {
     }
 };
 
+/// All rows, so many at a time.
+void write_in_steps(ExrWriter& writer, const Picture& picture, std::size_t step, Runner* runner) {
+    for (std::size_t row = 0; row < picture.height; row += step) {
+        const std::size_t count = std::min(step, picture.height - row);
+        ASSERT_TRUE(writer.write_rows(static_cast<int>(count), picture.rows(row), runner));
+    }
+}
+
 /// A file of ours without its checksum, which is all that its header has beyond OpenEXR's.
 std::string without_checksum(std::string bytes) {
     const std::string name =
@@ -189,10 +197,7 @@ TEST(ExrWriter, ZipFilesAreThoseOfOpenExr) {
             for (const std::size_t step : {1U, 5U, 16U, 23U, 70U})
                 for (Runner* runner : {static_cast<Runner*>(nullptr), static_cast<Runner*>(&threads)}) {
                     auto writer = ExrWriter::create(path, picture.header, picture.channels).value();
-                    for (std::size_t row = 0; row < picture.height; row += step) {
-                        const std::size_t count = std::min(step, picture.height - row);
-                        ASSERT_TRUE(writer->write_rows(static_cast<int>(count), picture.rows(row), runner));
-                    }
+                    write_in_steps(*writer, picture, step, runner);
                     ASSERT_TRUE(writer->finish());
                     const std::string bytes = content(path);
                     if (first_way.empty())
@@ -232,10 +237,7 @@ TEST(ExrWriter, TilesAreReadByOpenExr) {
             for (const std::size_t step : {1U, 9U, 16U, 70U})
                 for (Runner* runner : {static_cast<Runner*>(nullptr), static_cast<Runner*>(&threads)}) {
                     auto writer = ExrWriter::create(path, picture.header, picture.channels).value();
-                    for (std::size_t row = 0; row < picture.height; row += step) {
-                        const std::size_t count = std::min(step, picture.height - row);
-                        ASSERT_TRUE(writer->write_rows(static_cast<int>(count), picture.rows(row), runner));
-                    }
+                    write_in_steps(*writer, picture, step, runner);
                     ASSERT_TRUE(writer->finish());
                     if (first_way.empty())
                         first_way = content(path);

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,21 @@ inline SpectralSet set_of(Family family, const std::vector<double>& wavelengths_
     for (const double nm : wavelengths_nm)
         names.push_back(format_channel_name({"", family, nm, {}}, DecimalMark::Comma));
     return parse_channel_layout(names, DecimalMark::Comma).sets.at(0);
+}
+
+/// Every channel lies in one set or among the others, once.
+inline void expect_each_channel_once(const ChannelLayout& layout) {
+    std::vector<std::size_t> seen(layout.others);
+    for (const SpectralSet& set : layout.sets) {
+        for (const Band& band : set.bands)
+            seen.push_back(band.channel);
+        for (const Reradiation& pair : set.reradiation)
+            seen.push_back(pair.channel);
+    }
+    std::sort(seen.begin(), seen.end());
+    ASSERT_EQ(seen.size(), layout.channel_names.size());
+    for (std::size_t channel = 0; channel < seen.size(); ++channel)
+        ASSERT_EQ(seen[channel], channel);
 }
 
 inline std::vector<double> steps(double first, double step, double last) {

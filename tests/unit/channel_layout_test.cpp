@@ -3,6 +3,8 @@
 #include <osio/layout/presentation.h>
 #include <osio/layout/spectral_metadata.h>
 
+#include <support/sets.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,17 +38,7 @@ TEST(ChannelLayout, EveryChannelAppearsExactlyOnce) {
     std::mt19937 random(1);
     for (int i = 0; i < 50; ++i) {
         std::shuffle(names.begin(), names.end(), random);
-        const auto layout = layout_of(names);
-        std::vector<std::size_t> seen(layout.others);
-        for (const SpectralSet& set : layout.sets) {
-            for (const Band& band : set.bands)
-                seen.push_back(band.channel);
-            for (const Reradiation& pair : set.reradiation)
-                seen.push_back(pair.channel);
-        }
-        std::sort(seen.begin(), seen.end());
-        for (std::size_t c = 0; c < names.size(); ++c)
-            EXPECT_EQ(seen.at(c), c);
+        test::expect_each_channel_once(layout_of(names));
     }
 }
 

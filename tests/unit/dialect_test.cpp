@@ -3,6 +3,8 @@
 #include <osio/layout/part_layout.h>
 #include <osio/layout/presentation.h>
 
+#include <support/sets.h>
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -264,18 +266,7 @@ TEST(Dialect, EveryChannelAppearsExactlyOnceWhateverItsName) {
             if (std::find(names.begin(), names.end(), name) == names.end())
                 names.push_back(name);
         }
-        const auto layout = part_of(names).layout;
-        std::vector<std::size_t> seen(layout.others);
-        for (const SpectralSet& set : layout.sets) {
-            for (const Band& band : set.bands)
-                seen.push_back(band.channel);
-            for (const Reradiation& pair : set.reradiation)
-                seen.push_back(pair.channel);
-        }
-        std::sort(seen.begin(), seen.end());
-        ASSERT_EQ(seen.size(), names.size());
-        for (std::size_t c = 0; c < names.size(); ++c)
-            ASSERT_EQ(seen[c], c);
+        test::expect_each_channel_once(part_of(names).layout);
     }
 }
 

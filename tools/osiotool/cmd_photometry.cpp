@@ -9,6 +9,7 @@
 #include <formats/exr/output_header.h>
 #include <formats/files/text_file.h>
 #include <formats/image/colour_attributes.h>
+#include <formats/image/header_attributes.h>
 
 #include <osio/base/text.h>
 #include <osio/collapse/photometric_weights.h>
@@ -62,9 +63,9 @@ Result<std::unique_ptr<exr::ExrSink>> open_image(const std::string& path, const 
     if (!to_lower(path).ends_with(".exr"))
         return fail(ErrorCode::Usage, "a luminance image is written as .exr", path);
     Imf::Header header = exr::collapsed_header(job);
-    for (const char* name : {image::attribute::kChromaticities, image::attribute::kColorSpace,
-                             image::attribute::kRecipe, image::attribute::kPlan})
-        header.erase(name);
+    image::erase_attributes({image::attribute::kChromaticities, image::attribute::kColorSpace,
+                             image::attribute::kRecipe, image::attribute::kPlan},
+                            header);
     const std::vector<exr::OutputChannel> channels{{"Y", SampleType::Float},
                                                    {"Yscotopic", SampleType::Float}};
     OSIO_TRY(auto writer, exr::ExrWriter::create(path, std::move(header), channels));

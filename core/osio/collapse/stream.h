@@ -8,6 +8,7 @@
 #include <functional>
 #include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 /// Pixels in blocks of whole rows, from a file to a consumer, a few blocks at a time.
@@ -60,6 +61,28 @@ class BlockSource {
     [[nodiscard]] virtual std::size_t block_of_row(int row) const = 0;
     [[nodiscard]] virtual RowRange rows_of_block(std::size_t block) const = 0;
     [[nodiscard]] virtual Result<std::unique_ptr<BlockReader>> start_reader() const = 0;
+};
+
+/// Another source's blocks, which start_reader() of the derived class makes something of.
+class WrappedSource : public BlockSource {
+  public:
+    [[nodiscard]] int width() const final { return m_inner->width(); }
+
+    [[nodiscard]] std::size_t block_count() const final { return m_inner->block_count(); }
+
+    [[nodiscard]] std::size_t block_of_row(int row) const final { return m_inner->block_of_row(row); }
+
+    [[nodiscard]] RowRange rows_of_block(std::size_t block) const final {
+        return m_inner->rows_of_block(block);
+    }
+
+  protected:
+    explicit WrappedSource(std::unique_ptr<BlockSource> inner) : m_inner(std::move(inner)) {}
+
+    [[nodiscard]] const BlockSource& inner() const { return *m_inner; }
+
+  private:
+    std::unique_ptr<BlockSource> m_inner;
 };
 
 /// Runs a body on several workers at once and returns when all have returned. The core makes no

@@ -124,6 +124,12 @@ std::optional<std::size_t> ChannelLayout::find_channel(std::string_view name) co
     return static_cast<std::size_t>(found - channel_names.begin());
 }
 
+const SpectralSet* ChannelLayout::find_set(std::string_view name) const {
+    const auto found =
+        std::find_if(sets.begin(), sets.end(), [name](const SpectralSet& set) { return set.name() == name; });
+    return found == sets.end() ? nullptr : &*found;
+}
+
 std::optional<std::size_t> ChannelLayout::alpha_of(const SpectralSet& set) const {
     const auto other = [this](std::string_view name) {
         const auto channel = find_channel(name);

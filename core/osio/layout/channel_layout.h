@@ -77,6 +77,9 @@ struct ChannelLayout {
     /// Index of the channel with exactly that name.
     [[nodiscard]] std::optional<std::size_t> find_channel(std::string_view name) const;
 
+    /// The set of that name; null where there is none.
+    [[nodiscard]] const SpectralSet* find_set(std::string_view name) const;
+
     /// The alpha that goes with a set: `ROOT.A`, else `A`.
     [[nodiscard]] std::optional<std::size_t> alpha_of(const SpectralSet& set) const;
 };
