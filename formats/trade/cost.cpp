@@ -4,15 +4,11 @@
 #include <formats/exr/output_header.h>
 #include <formats/image/open_image.h>
 #include <formats/trade/cost.h>
-#include <formats/trade/timed.h>
 
 #include <osio/collapse/kernel.h>
 
 #include <algorithm>
 #include <array>
-#include <chrono>
-#include <cstdlib>
-#include <cstring>
 #include <filesystem>
 
 namespace osio::trade {
@@ -78,33 +74,6 @@ class PlainVisitor final : public BlockVisitor {
     Result<void> m_status;
 };
 
-/// Rows of a proxy are written only where they were made.
-class EveryRowSink final : public RowSink {
-  public:
-    EveryRowSink(RowSink& sink, int first_row, int step, std::size_t width)
-        : m_sink(sink), m_first_row(first_row), m_step(step), m_width(width) {}
-
-    [[nodiscard]] Result<void> write_rows(int first_row, int row_count,
-                                          std::span<const float* const> planes) override {
-        for (int row = 0; row < row_count; ++row) {
-            const int y = first_row + row - m_first_row;
-            if (y % m_step != 0)
-                continue;
-            std::vector<const float*> one;
-            for (const float* plane : planes)
-                one.push_back(plane + static_cast<std::size_t>(row) * m_width);
-            OSIO_CHECK_OK(m_sink.write_rows(m_first_row + y / m_step, 1, one));
-        }
-        return {};
-    }
-
-  private:
-    RowSink& m_sink;
-    int m_first_row;
-    int m_step;
-    std::size_t m_width;
-};
-
 std::uint64_t bytes_of(const std::string& path) {
     std::error_code error;
     const auto bytes = std::filesystem::file_size(path, error);
@@ -122,21 +91,13 @@ struct Workbench::Source {
     WeightMatrix weights;
 };
 
-Workbench::Workbench(const image::CollapseJob& job, Choices choices, MemoryMeter meter, std::string folder)
+Workbench::Workbench(const image::CollapseJob& job, Choices choices, MemoryMeter meter,
+                     files::TemporaryFolder folder)
     : m_job(job), m_choices(std::move(choices)), m_meter(std::move(meter)), m_folder(std::move(folder)) {}
-
-Workbench::~Workbench() {
-    std::error_code error;
-    std::filesystem::remove_all(m_folder, error);
-}
 
 Result<std::unique_ptr<Workbench>> Workbench::create(const image::CollapseJob& job, Choices choices,
                                                      MemoryMeter meter) {
-    std::error_code error;
-    // mkdtemp() takes six X for the letters that make the name its own.
-    std::string folder = (std::filesystem::temp_directory_path(error) / "osio-trade-XXXXXX").string();
-    if (error || ::mkdtemp(folder.data()) == nullptr)
-        return fail(ErrorCode::Io, std::strerror(errno), folder);
+    OSIO_TRY(files::TemporaryFolder folder, files::TemporaryFolder::create("trade"));
     return std::unique_ptr<Workbench>(
         new Workbench(job, std::move(choices), std::move(meter), std::move(folder)));
 }
@@ -146,7 +107,7 @@ Result<std::string> Workbench::half_image(const OpenWords& words, Runner& runner
         convert::Request request;
         request.input = m_job.file->path();
         request.words = words;
-        request.output = m_folder + "/half.exr";
+        request.output = m_folder.path("half.exr");
         request.part = std::to_string(m_job.part_index);
         request.set = m_job.plan.request.set;
         request.depth = SampleType::Half;
@@ -172,7 +133,7 @@ Result<std::string> Workbench::colour_image(const TextLoader& load_text, Runner&
     std::vector<exr::OutputChannel> channels;
     for (const std::string& name : job.channel_names())
         channels.push_back({name, SampleType::Float});
-    const std::string path = m_folder + "/colour.exr";
+    const std::string path = m_folder.path("colour.exr");
     OSIO_TRY(std::shared_ptr<exr::ExrWriter> writer,
              exr::ExrWriter::create(path, exr::collapsed_header(job), channels));
     exr::ExrSink sink(std::move(writer), SampleType::Float, job.part().data_window.width());
@@ -216,70 +177,57 @@ Result<Workbench::Source> Workbench::source_of(const Choice& choice, const TextL
     return out;
 }
 
-Result<Cost> Workbench::run_once(const Choice& choice, const Source& source, Runner& runner,
-                                 const Progress& progress) {
-    const RowRange rows = rows_of(m_job);
-    const image::Window& window = m_job.part().data_window;
+Run Workbench::run_of(const Choice& choice, const Source& source, Runner& runner,
+                      const Progress& progress) const {
     const SampleType type = choice.half_output ? SampleType::Half : SampleType::Float;
-    Imf::Header header = exr::collapsed_header(m_job);
-    header.dataWindow().max.y = header.dataWindow().min.y + (rows.last - rows.first) / choice.row_step;
-    const std::string path = m_folder + "/out.exr";
+    Run run;
+    run.open = [&source]() -> Result<std::unique_ptr<BlockSource>> {
+        OSIO_TRY(const auto file, image::open_image(source.path, source.words));
+        return file->make_block_source(source.part, source.planes, image::Grain::Block);
+    };
+    Choice summed = choice;
+    summed.weights = source.weights;
     CollapsePlan plan = m_job.plan;
     plan.weights = source.weights;
-    Choice with_weights = choice;
-    with_weights.weights = source.weights;
-
-    m_meter.restart();
-    Stopwatch decode, write;
-    const auto start = std::chrono::steady_clock::now();
-    OSIO_TRY(const auto file, image::open_image(source.path, source.words));
-    OSIO_TRY(auto blocks, file->make_block_source(source.part, source.planes, image::Grain::Block));
-    const TimedSource timed_source(std::move(blocks), decode);
-    std::vector<exr::OutputChannel> channels{{"R", type}, {"G", type}, {"B", type}};
-    OSIO_TRY(std::shared_ptr<exr::ExrWriter> writer,
-             exr::ExrWriter::create(path, std::move(header), channels));
-    exr::ExrSink sink(std::move(writer), type, window.width());
-    EveryRowSink proxy(sink, rows.first, choice.row_step, static_cast<std::size_t>(window.width()));
-    TimedSink timed_sink(choice.row_step > 1 ? static_cast<RowSink&>(proxy) : sink, write);
-    if (choice.level == Level::Reference || choice.row_step > 1) {
-        const auto visitor = [&] {
-            return std::make_unique<PlainVisitor>(with_weights, rows.first, window.width(), timed_sink);
-        };
-        OSIO_CHECK_OK(visit_blocks(timed_source, rows, runner, visitor, progress));
-    } else {
-        OSIO_CHECK_OK(collapse_stream(timed_source, plan, false, rows, timed_sink, runner, progress));
-    }
-    OSIO_CHECK_OK(write.time([&] { return sink.finish(); }));
-    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-
-    Cost out;
-    const auto workers = static_cast<double>(runner.worker_count());
-    out.all.median = seconds;
-    out.decode = std::min(seconds, decode.seconds() / workers);
-    out.write = std::min(seconds - out.decode, write.seconds() / workers);
-    out.collapse = seconds - out.decode - out.write;
-    out.bytes_read = bytes_of(source.path);
-    out.bytes_written = bytes_of(path);
-    out.peak_mb = m_meter.peak_mb();
-    return out;
+    run.collapse = [summed = std::move(summed), plan = std::move(plan), &runner,
+                    &progress](const BlockSource& blocks, RowRange rows, RowSink& sink) -> Result<void> {
+        if (summed.level == Level::Reference || summed.row_step > 1) {
+            const auto visitor = [&] {
+                return std::make_unique<PlainVisitor>(summed, rows.first, blocks.width(), sink);
+            };
+            return visit_blocks(blocks, rows, runner, visitor, progress);
+        }
+        OSIO_CHECK_OK(collapse_stream(blocks, plan, false, rows, sink, runner, progress));
+        return {};
+    };
+    run.header = exr::collapsed_header(m_job);
+    run.channels = {{"R", type}, {"G", type}, {"B", type}};
+    run.type = type;
+    run.row_step = choice.row_step;
+    run.output = m_folder.path("out.exr");
+    return run;
 }
 
 Result<Cost> Workbench::measure(std::size_t choice, int runs, const TextLoader& load_text, Runner& runner,
                                 const Progress& progress) {
     const Choice& what = m_choices.list[choice];
     OSIO_TRY(const Source source, source_of(what, load_text, runner, progress));
-    std::vector<Cost> costs;
-    for (int run = 0; run < runs; ++run) {
-        OSIO_TRY(Cost cost, run_once(what, source, runner, progress));
-        costs.push_back(cost);
+    const Run run = run_of(what, source, runner, progress);
+    Cost out;
+    OSIO_TRY(out.forecast, forecast_run(run, rows_of(m_job), runner.worker_count()));
+    std::vector<Times> times;
+    for (int i = 0; i < runs; ++i) {
+        m_meter.restart();
+        OSIO_TRY(const Times time, timed_run(run, rows_of(m_job), runner.worker_count()));
+        times.push_back(time);
+        out.peak_mb = std::max(out.peak_mb, m_meter.peak_mb());
     }
-    std::sort(costs.begin(), costs.end(),
-              [](const Cost& a, const Cost& b) { return a.all.median < b.all.median; });
-    Cost out = costs[costs.size() / 2];
-    out.all.fastest = costs.front().all.median;
-    out.all.slowest = costs.back().all.median;
-    for (const Cost& cost : costs)
-        out.peak_mb = std::max(out.peak_mb, cost.peak_mb);
+    std::sort(times.begin(), times.end(),
+              [](const Times& a, const Times& b) { return a.total() < b.total(); });
+    out.middle = times[times.size() / 2];
+    out.all = {out.middle.total(), times.front().total(), times.back().total()};
+    out.bytes_read = bytes_of(source.path);
+    out.bytes_written = bytes_of(run.output);
     return out;
 }
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <formats/files/temporary_folder.h>
 #include <formats/trade/choice.h>
+#include <formats/trade/timed_run.h>
 
 #include <cstdint>
 #include <functional>
@@ -26,8 +28,9 @@ struct Seconds {
 /// What a choice takes, from the file to a file.
 struct Cost {
     Seconds all;
-    double decode = 0, collapse = 0, write = 0;  ///< seconds of the run in the middle
-    std::uint64_t bytes_read = 0;                ///< of the file that is read
+    Times middle;                  ///< of the run in the middle
+    Forecast forecast;             ///< made before the runs
+    std::uint64_t bytes_read = 0;  ///< of the file that is read
     std::uint64_t bytes_written = 0;
     double peak_mb = 0;  ///< resident memory of the process; 0 where the system does not tell
 };
@@ -45,30 +48,28 @@ class Workbench {
     /// Io where no folder can be made below the system's own for temporary files.
     [[nodiscard]] static Result<std::unique_ptr<Workbench>> create(const image::CollapseJob& job,
                                                                    Choices choices, MemoryMeter meter);
-    Workbench(const Workbench&) = delete;
-    Workbench& operator=(const Workbench&) = delete;
-    ~Workbench();
 
     [[nodiscard]] const Choices& choices() const { return m_choices; }
 
-    /// Runs one choice so many times. Making the input that it needs is not counted.
+    /// Forecasts one choice, then runs it so many times. Making the input that it needs is not counted.
     [[nodiscard]] Result<Cost> measure(std::size_t choice, int runs, const TextLoader& load_text,
                                        Runner& runner, const Progress& progress);
 
   private:
     struct Source;
-    Workbench(const image::CollapseJob& job, Choices choices, MemoryMeter meter, std::string folder);
+    Workbench(const image::CollapseJob& job, Choices choices, MemoryMeter meter,
+              files::TemporaryFolder folder);
     Result<Source> source_of(const Choice& choice, const TextLoader& load_text, Runner& runner,
                              const Progress& progress);
     Result<std::string> half_image(const OpenWords& words, Runner& runner, const Progress& progress);
     Result<std::string> colour_image(const TextLoader& load_text, Runner& runner, const Progress& progress);
-    Result<Cost> run_once(const Choice& choice, const Source& source, Runner& runner,
-                          const Progress& progress);
+    /// Refers to the source, the runner and the progress.
+    Run run_of(const Choice& choice, const Source& source, Runner& runner, const Progress& progress) const;
 
     const image::CollapseJob& m_job;
     Choices m_choices;
     MemoryMeter m_meter;
-    std::string m_folder;
+    files::TemporaryFolder m_folder;
     std::string m_half, m_colour;  ///< paths, once they are made
 };
 

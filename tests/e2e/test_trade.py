@@ -99,7 +99,7 @@ class Trade(OsioCase):
         text = self.osiotool("trade", "a.exr", "--illuminant", "A", "--runs", "1").stdout
         self.assertIn("dE mean", text)
         lines = self.osiotool("trade", "a.exr", "--illuminant", "A", "--runs", "1", "--csv").stdout.splitlines()
-        self.assertEqual({len(line.split(",")) for line in lines}, {17})
+        self.assertEqual({len(line.split(",")) for line in lines}, {18})
         self.osiotool("trade", "a.exr", "--illuminant", "A", "--to", "srgb", code=2)
         self.osiotool("trade", "a.exr", "--illuminant", "A", "--runs", "0", code=2)
         self.osiotool("trade", "a.exr", "--illuminant", "A", "--json", "--csv", code=2)

@@ -110,6 +110,24 @@ void expect_same_bits(const std::vector<std::vector<float>>& a, const std::vecto
         }
 }
 
+TEST(IsZero, HoldsWhereNoBitOfAnySampleIsSet) {
+    std::mt19937 random(11);
+    for (const SampleType type : {SampleType::Half, SampleType::Float, SampleType::Uint})
+        for (const std::size_t pixels : {1U, 2U, 3U, 17U, 100U}) {
+            const std::size_t bytes = pixels * sample_bytes(type);
+            std::vector<std::byte> memory(bytes + 2, std::byte{0xFF});
+            std::memset(memory.data() + 1, 0, bytes);
+            const BandView band{memory.data() + 1, type, static_cast<std::ptrdiff_t>(sample_bytes(type))};
+            EXPECT_TRUE(is_zero(band, pixels));
+            for (std::size_t bit = 0; bit < 8 * bytes; ++bit) {
+                memory[1 + bit / 8] = static_cast<std::byte>(1U << bit % 8);
+                EXPECT_FALSE(is_zero(band, pixels)) << pixels << " bit " << bit;
+                memory[1 + bit / 8] = std::byte{};
+            }
+        }
+    EXPECT_FALSE(is_zero({}, 4));
+}
+
 /// Runs a test once for each instruction set that this machine has.
 class KernelOn : public testing::TestWithParam<std::int64_t> {
   protected:

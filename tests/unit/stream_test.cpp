@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <osio/collapse/collapse_stream.h>
+#include <osio/collapse/kernel.h>
 
 #include <support/sets.h>
 
@@ -7,6 +8,7 @@
 #include <bit>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <mutex>
 #include <thread>
@@ -160,6 +162,60 @@ TEST(CollapseStream, ResultDoesNotDependOnWorkersBlocksOrRange) {
                     EXPECT_TRUE(
                         std::equal(part.rows[p].begin(), part.rows[p].end(), expected[p].begin() + 7 * 13));
             }
+}
+
+/// Keeps what it is shown of one band, by the sums' first pixel of each piece.
+class BandWitness final : public CollapseWitness {
+  public:
+    std::vector<const std::byte*> seen;
+
+    std::unique_ptr<WitnessWorker> start_worker() override { return std::make_unique<Worker>(*this); }
+
+  private:
+    class Worker final : public WitnessWorker {
+      public:
+        explicit Worker(BandWitness& witness) : m_witness(witness) {}
+
+        void look(std::span<const BandView> bands, std::size_t, std::span<const float* const>) override {
+            m_witness.seen.push_back(bands[2].data);
+        }
+
+        void deliver() override {}
+
+      private:
+        BandWitness& m_witness;
+    };
+};
+
+TEST(CollapseStream, BandsOfZerosChangeNoBitAndAreShownToWitnesses) {
+    const auto plan = plan_of(set_of(Family::S0, kGrid), "to=xyz").value();
+    const int top = MemorySource::kTop, width = 13, height = 40;
+    MemorySource source(width, height, 4, kGrid.size());
+    std::fill(source.m_data[2].begin(), source.m_data[2].end(), 0.0F);
+    std::fill_n(source.m_data[3].begin(), 7 * width, 0.0F);
+    std::fill_n(source.m_data[4].begin(), 7 * width, -0.0F);
+    source.m_data[0][50] = std::numeric_limits<float>::infinity();
+    source.m_data[5][60] = std::numeric_limits<float>::quiet_NaN();
+    std::vector<BandView> bands;
+    for (const auto& plane : source.m_data)
+        bands.push_back({reinterpret_cast<const std::byte*>(plane.data()), SampleType::Float, 4});
+    std::vector<std::vector<float>> expected(3, std::vector<float>(static_cast<std::size_t>(width * height)));
+    std::vector<float*> rows;
+    for (auto& row : expected)
+        rows.push_back(row.data());
+    collapse_run_reference(bands, plan.weights, expected[0].size(), rows);
+
+    MemorySink sink(width, top);
+    TestRunner runner(1, false);
+    BandWitness witness;
+    const CollapseTarget target{plan, sink, &witness};
+    ASSERT_TRUE(collapse_stream(source, {&target, 1}, false, {top, top + height - 1}, runner, {}));
+    for (std::size_t row = 0; row < 3; ++row)
+        EXPECT_EQ(std::memcmp(sink.rows[row].data(), expected[row].data(), 4 * expected[row].size()), 0)
+            << row;
+    ASSERT_EQ(witness.seen.size(), source.block_count());
+    for (std::size_t block = 0; block < witness.seen.size(); ++block)
+        EXPECT_EQ(witness.seen[block], bands[2].advanced(block * 4 * width).data);
 }
 
 TEST(CollapseStream, SeveralPlansAreWhatEachWouldBeAndReadOnce) {

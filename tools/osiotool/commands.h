@@ -33,6 +33,9 @@ struct AuditOptions {
 struct PlanOptions {
     std::string input;
     RequestWords request;
+    bool explain = false;
+    std::optional<std::string> svg;  ///< a picture of the plan
+    unsigned threads = 0;            ///< of explain
     bool json = false;
 };
 

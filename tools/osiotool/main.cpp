@@ -120,7 +120,8 @@ class CommandLine {
     void add_info() {
         CLI::App* const command = add("info", "what a file holds: parts, bands, units, warnings",
                                       [this] { return run_info(m_info); });
-        command->add_option("file", m_info.input, "OpenEXR, ENVI or TIFF file, or list of band files")->required();
+        command->add_option("file", m_info.input, "OpenEXR, ENVI or TIFF file, or list of band files")
+            ->required();
         add_open_options(*command, m_info.request);
         command->add_flag("--json", m_info.json, "as JSON");
     }
@@ -173,6 +174,12 @@ class CommandLine {
                                       [this] { return run_plan(m_plan); });
         command->add_option("input", m_plan.input, "spectral image")->required();
         add_request_options(*command, m_plan.request, {"max-delta-e", "white-luminance"});
+        command->add_flag("--explain", m_plan.explain,
+                          "what it would do and do without, and how long each step would take");
+        command->add_option("--svg", m_plan.svg, "draw the light, bands, weights and budget")
+            ->type_name("OUT.svg");
+        command->add_option("--threads", m_plan.threads, "of --explain; default: one a processor")
+            ->type_name("N");
         command->add_flag("--json", m_plan.json, "as JSON");
     }
 
@@ -180,8 +187,9 @@ class CommandLine {
         CLI::App* const command = add("convert", "bands from one format to another, as they are",
                                       [this] { return run_convert(m_convert); });
         command
-            ->add_option("files", m_convert.files,
-                         "input, then output: .exr, .spexr, .hdr for ENVI, or .tif; several inputs with --assemble")
+            ->add_option(
+                "files", m_convert.files,
+                "input, then output: .exr, .spexr, .hdr for ENVI, or .tif; several inputs with --assemble")
             ->required()
             ->expected(2, -1)
             ->type_name("IN... OUT");

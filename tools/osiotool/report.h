@@ -27,6 +27,8 @@
 /// docs/cli.md and stable: keys are added, never renamed.
 namespace osio::tool {
 
+struct Explained;
+
 /// What became of a collapse.
 struct CollapseOutcome {
     std::string output;
@@ -118,8 +120,9 @@ struct LightOutcome {
 [[nodiscard]] std::string info_json(const image::SpectralImage& file);
 
 [[nodiscard]] std::string plan_text(const image::CollapseJob& job);
-/// One plan as an object, several as the array of an object's `plans`.
-[[nodiscard]] std::string plans_json(const std::vector<image::CollapseJob>& jobs);
+/// One plan as an object, several as the array of an object's `plans`. `explained`: none, or that of each plan.
+[[nodiscard]] std::string plans_json(const std::vector<image::CollapseJob>& jobs,
+                                     const std::vector<Explained>& explained);
 
 [[nodiscard]] std::string outcome_text(const image::CollapseJob& job, const CollapseOutcome& outcome);
 /// One outcome as an object, several as the array of an object's `outputs`.

@@ -2,6 +2,7 @@
 #include <tools/osiotool/audit.h>
 #include <tools/osiotool/json_text.h>
 #include <tools/osiotool/report.h>
+#include <tools/osiotool/report_explain.h>
 
 #include <osio/base/text.h>
 #include <osio/collapse/basis_spread.h>
@@ -298,10 +299,13 @@ std::string audit_json(const std::vector<AuditedFile>& files) {
     return dump({{"files", std::move(out)}});
 }
 
-std::string plans_json(const std::vector<image::CollapseJob>& jobs) {
+std::string plans_json(const std::vector<image::CollapseJob>& jobs, const std::vector<Explained>& explained) {
     Json plans = Json::array();
-    for (const image::CollapseJob& job : jobs)
-        plans.push_back(plan_object(job));
+    for (std::size_t i = 0; i < jobs.size(); ++i) {
+        plans.push_back(plan_object(jobs[i]));
+        if (!explained.empty())
+            plans.back()["explain"] = explain_object(jobs[i], explained[i]);
+    }
     return dump(jobs.size() == 1 ? plans.front() : Json{{"plans", std::move(plans)}});
 }
 

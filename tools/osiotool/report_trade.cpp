@@ -34,6 +34,7 @@ std::string trade_text(const std::string& input, const trade::Table& table) {
                        {"bands", Align::Right},
                        {"seconds", Align::Right},
                        {"min-max", Align::Right},
+                       {"predicted", Align::Right},
                        {"of exact", Align::Right},
                        {"decode", Align::Right},
                        {"collapse", Align::Right},
@@ -52,8 +53,9 @@ std::string trade_text(const std::string& input, const trade::Table& table) {
         columns.add({offer.on_front ? "*" : "", offer.name, std::to_string(offer.bands),
                      fmt::format("{:.3f}", cost.all.median),
                      fmt::format("{:.3f}-{:.3f}", cost.all.fastest, cost.all.slowest),
-                     time_against_exact(table, offer), fmt::format("{:.3f}", cost.decode),
-                     fmt::format("{:.3f}", cost.collapse), fmt::format("{:.3f}", cost.write),
+                     fmt::format("{:.3f}", cost.forecast.times.total()), time_against_exact(table, offer),
+                     fmt::format("{:.3f}", cost.middle.decode), fmt::format("{:.3f}", cost.middle.collapse),
+                     fmt::format("{:.3f}", cost.middle.write),
                      fmt::format("{:.1f}", static_cast<double>(cost.bytes_read) / kMega),
                      fmt::format("{:.1f}", static_cast<double>(cost.bytes_written) / kMega),
                      fmt::format("{:.0f}", cost.peak_mb), delta_text(delta.mean()),
@@ -76,17 +78,18 @@ std::string trade_text(const std::string& input, const trade::Table& table) {
 }
 
 std::string trade_csv(const trade::Table& table) {
-    std::string out =
-        "choice,bands,seconds,fastest,slowest,decode,collapse,write,bytes_read,bytes_written,peak_mb,"
-        "delta_e_mean,delta_e_95,delta_e_99_9,delta_e_max,largest_xyz,front\n";
+    std::string out = "choice,bands,seconds,fastest,slowest,predicted,decode,collapse,write,bytes_read,bytes_"
+                      "written,peak_mb,"
+                      "delta_e_mean,delta_e_95,delta_e_99_9,delta_e_max,largest_xyz,front\n";
     for (const trade::Offer& offer : table.offers) {
         const trade::Cost& cost = offer.cost;
         const ValueStatistics& delta = offer.worth.delta_e;
-        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", offer.name, offer.bands,
-                           cost.all.median, cost.all.fastest, cost.all.slowest, cost.decode, cost.collapse,
-                           cost.write, cost.bytes_read, cost.bytes_written, cost.peak_mb, delta.mean(),
-                           delta.percentile(95), delta.percentile(99.9), delta.maximum(),
-                           offer.worth.largest_xyz, offer.on_front ? 1 : 0);
+        out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", offer.name, offer.bands,
+                           cost.all.median, cost.all.fastest, cost.all.slowest, cost.forecast.times.total(),
+                           cost.middle.decode, cost.middle.collapse, cost.middle.write, cost.bytes_read,
+                           cost.bytes_written, cost.peak_mb, delta.mean(), delta.percentile(95),
+                           delta.percentile(99.9), delta.maximum(), offer.worth.largest_xyz,
+                           offer.on_front ? 1 : 0);
     }
     return out;
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <tools/osiotool/plot_axis.h>
 #include <tools/osiotool/spectrum_plot.h>
 
 #include <osio/base/text.h>
@@ -15,38 +16,7 @@ namespace {
 constexpr double kWidth = 720, kHeight = 420;                       // px
 constexpr double kLeft = 72, kRight = 24, kTop = 40, kBottom = 56;  // margins, px
 
-/// A range of values along a side of the picture.
-class Axis {
-  public:
-    /// `from` and `to`: pixels of the lowest and highest value.
-    Axis(double low, double high, double from, double to) : m_low(low), m_high(high), m_from(from), m_to(to) {
-        if (m_low == m_high) {
-            const double room = m_low == 0 ? 1 : std::abs(m_low) / 2;
-            m_low -= room;
-            m_high += room;
-        }
-    }
-
-    [[nodiscard]] double at(double value) const {
-        return m_from + (value - m_low) / (m_high - m_low) * (m_to - m_from);
-    }
-
-    /// Multiples of 1, 2 or 5 times a power of ten inside the range, about six of them.
-    [[nodiscard]] std::vector<double> ticks() const {
-        const double rough = (m_high - m_low) / 6, power = std::pow(10, std::floor(std::log10(rough)));
-        const double digits = rough / power;
-        const double step = power * (digits > 5 ? 10 : digits > 2 ? 5 : digits > 1 ? 2 : 1);
-        std::vector<double> out;
-        for (double n = std::ceil(m_low / step - 1e-9); n * step <= m_high + 1e-9 * step; ++n)
-            out.push_back(n * step);
-        return out;
-    }
-
-  private:
-    double m_low, m_high, m_from, m_to;
-};
-
-std::string grid(const Axis& x, const Axis& y) {
+std::string grid(const PlotAxis& x, const PlotAxis& y) {
     std::string out;
     for (const double nm : x.ticks())
         out +=
@@ -70,8 +40,8 @@ std::string spectrum_plot(const std::vector<image::BandSpread>& spread, const st
         low = std::min(low, band.minimum);
         high = std::max(high, band.maximum);
     }
-    const Axis x(spread.front().wavelength_nm, spread.back().wavelength_nm, kLeft, kWidth - kRight);
-    const Axis y(low, high, kHeight - kBottom, kTop);
+    const PlotAxis x(spread.front().wavelength_nm, spread.back().wavelength_nm, kLeft, kWidth - kRight);
+    const PlotAxis y(low, high, kHeight - kBottom, kTop);
     std::string line, marks, below, above;
     for (const image::BandSpread& band : spread) {
         const double at = x.at(band.wavelength_nm);

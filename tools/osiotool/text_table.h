@@ -21,6 +21,8 @@ class TextTable {
 
     void add(std::vector<std::string> row) { m_rows.push_back(std::move(row)); }
 
+    [[nodiscard]] bool empty() const { return m_rows.empty(); }
+
     /// The table with `indent` spaces in front of every line, a line break after the last.
     [[nodiscard]] std::string text(std::size_t indent = 0) const;
 

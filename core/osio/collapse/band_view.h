@@ -24,8 +24,8 @@ enum class SampleType : std::uint8_t { Half, Float, Uint };
     return "uint";
 }
 
-/// The samples of one band along a run of pixels. Owns nothing. `data` may be null for a band that
-/// no output needs; samples need no alignment.
+/// The samples of one band along a run of pixels. Owns nothing. `data` may be null for a band that no output
+/// needs or that is zero all along the run; samples need no alignment.
 struct BandView {
     const std::byte* data = nullptr;
     SampleType type = SampleType::Float;

@@ -148,29 +148,38 @@ class Collapser final : public BlockVisitor {
     /// until they have been looked at.
     void sum(std::size_t first, std::size_t count, std::span<const BandView> planes) {
         const auto bands = planes.first(m_shared.weights.bands());
+        m_summed.clear();
+        for (const BandView& band : bands)
+            m_summed.push_back(is_zero(band, count) ? BandView{} : band);
         const std::size_t piece = m_witnessed ? kWitnessedPixels : count;
-        for (std::size_t done = 0; done < count; done += piece) {
-            m_piece.clear();
-            for (const BandView& band : bands)
-                m_piece.push_back(band.advanced(done));
-            sum_piece(first + done, std::min(piece, count - done));
-        }
+        for (std::size_t done = 0; done < count; done += piece)
+            sum_piece(bands, done, first + done, std::min(piece, count - done));
         if (m_shared.has_alpha)
             for (std::size_t pixel = 0; pixel < count; ++pixel)
                 m_planes.back()[first + pixel] = static_cast<float>(sample_at(planes.back(), pixel));
     }
 
-    void sum_piece(std::size_t first, std::size_t count) {
+    void sum_piece(std::span<const BandView> bands, std::size_t from, std::size_t to, std::size_t count) {
         m_sums.clear();
         for (std::size_t row = 0; row < m_shared.weights.rows(); ++row)
-            m_sums.push_back(m_planes[row].data() + first);
+            m_sums.push_back(m_planes[row].data() + to);
+        advance(m_summed, from);
         collapse_run(m_piece, m_shared.weights, count, m_sums);
+        if (!m_witnessed)
+            return;
+        advance(bands, from);
         const float* const* sums = m_sums.data();
         for (const Branch& branch : m_branches) {
             if (branch.witness)
                 branch.witness->look(m_piece, count, {sums, branch.sums});
             sums += branch.sums;
         }
+    }
+
+    void advance(std::span<const BandView> bands, std::size_t pixels) {
+        m_piece.clear();
+        for (const BandView& band : bands)
+            m_piece.push_back(band.advanced(pixels));
     }
 
     /// Turns the sums from plane `first` on into what the target's space means, and prepares its rows.
@@ -208,6 +217,7 @@ class Collapser final : public BlockVisitor {
     Result<void> m_prepared;
     std::vector<std::vector<float>> m_planes;
     std::vector<float*> m_pointers;
+    std::vector<BandView> m_summed;    ///< of the run in work: no band that is zero all along it
     std::vector<BandView> m_piece;     ///< of the run in work
     std::vector<float*> m_sums;        ///< of the run in work
     std::vector<float*> m_components;  ///< of the rows to deliver

@@ -32,6 +32,11 @@ void collapse_run(std::span<const BandView> bands, const WeightMatrix& weights, 
 /// True for what SIMD can load: contiguous halves and floats, and a band that nobody needs.
 [[nodiscard]] bool is_vectorisable(const BandView& band);
 
+/// True where all samples of a run are +0, every bit of them. Leaving such a band out changes no bit of any sum: sums
+/// begin at +0, and +0 added to anything but -0, which no sum from +0 can be, is that thing itself. A band that does not
+/// lie together is not looked at. Costs nothing where the first or the last sample is another number.
+[[nodiscard]] bool is_zero(const BandView& band, std::size_t pixel_count);
+
 /// One sample as a double.
 [[nodiscard]] double sample_at(const BandView& band, std::size_t pixel);
 

@@ -28,6 +28,16 @@ double sample_at(const BandView& band, std::size_t pixel) {
     return static_cast<double>(value);
 }
 
+bool is_zero(const BandView& band, std::size_t pixel_count) {
+    if (band.data == nullptr || !band.contiguous() || pixel_count == 0)
+        return false;
+    const std::size_t bytes = pixel_count * sample_bytes(band.type);
+    constexpr std::byte kZero{};
+    // All bytes are the first where each is the next.
+    return band.data[0] == kZero && band.data[bytes - 1] == kZero &&
+           std::memcmp(band.data, band.data + 1, bytes - 1) == 0;
+}
+
 void collapse_run_reference(std::span<const BandView> bands, const WeightMatrix& weights,
                             std::size_t pixel_count, std::span<float* const> out) {
     collapse_rows_reference(bands, weights, 0, pixel_count, out);
@@ -40,7 +50,7 @@ void collapse_rows_reference(std::span<const BandView> bands, const WeightMatrix
             double sum = 0;
             for (std::size_t band = 0; band < bands.size(); ++band) {
                 const double weight = weights.at(row, band);
-                if (weight != 0)
+                if (weight != 0 && bands[band].data != nullptr)
                     sum += weight * sample_at(bands[band], pixel);
             }
             out[row][pixel] = static_cast<float>(sum);

@@ -104,7 +104,7 @@ static void collapse_rows(std::span<const BandView> bands, const WeightMatrix& m
                 sums[row][v] = hn::Zero(Doubles());
         for (std::size_t band = 0; band < bands.size(); ++band) {
             const BandView& view = bands[band];
-            if (view.data == nullptr)  // no output needs it
+            if (view.data == nullptr)  // no output needs it, or it is zero
                 continue;
             if (view.type == SampleType::Half)
                 add_band<kRows, kVectors, true>(view.data + pixel * 2, weights, band, sums);
