@@ -24,7 +24,8 @@ constexpr std::size_t kMostOpen = 64;
 const std::vector<Target>& targets() {
     static const std::vector<Target> all{{{".exr", ".spexr"}, true, open_exr},
                                          {{".hdr"}, false, open_envi},
-                                         {{".tif", ".tiff"}, false, open_tiff}};
+                                         {{".tif", ".tiff"}, false, open_tiff},
+                                         {{".png"}, false, open_png}};
     return all;
 }
 
@@ -34,9 +35,12 @@ Result<void> check_words(const Request& request, const Target& target) {
     if (!envi && request.interleave)
         return fail(ErrorCode::Usage, "--interleave is for .hdr output");
     if (!exr && request.depth)
-        return fail(ErrorCode::Usage, "-d and --half are for .exr output; ENVI and TIFF get plain floats");
-    if (envi && !request.compression.empty())
-        return fail(ErrorCode::Usage, "--compression is for .exr and .tif output; ENVI gets plain floats");
+        return fail(ErrorCode::Usage,
+                    "-d and --half are for .exr output; ENVI and TIFF get plain floats, PNG 16 bits");
+    if (!exr && !tiff && !request.compression.empty())
+        return fail(ErrorCode::Usage,
+                    "--compression is for .exr and .tif output; ENVI gets plain floats, PNG "
+                    "has a compression of its own");
     if (tiff && !request.compression.empty() && request.compression != "none" && request.compression != "zip")
         return fail(ErrorCode::Usage, "there is no compression \"" + request.compression +
                                           "\" of .tif output; expected none or zip");

@@ -39,7 +39,7 @@ enum class Split {
 struct Request {
     std::string input;
     std::vector<std::string> joined;       ///< further files whose channels are put beside the input's
-    std::string output;                    ///< its ending says the format: .exr, .spexr, .hdr
+    std::string output;                    ///< its ending says the format: .exr, .spexr, .hdr, .tif, .png
     OpenWords words;                       ///< what the user says of the inputs
     std::string part;                      ///< number from 0, or name
     std::string set;                       ///< "T", "left.S0", ...
@@ -66,6 +66,7 @@ struct Outcome {
     std::vector<std::string> lost;      ///< what the output does not hold, in words
     std::vector<std::string> warnings;  ///< of the input, and of what is made of it
     std::uint64_t clamped_samples = 0;  ///< beyond +-65504 in a half
+    std::uint64_t clipped_samples = 0;  ///< outside 0 to 1 in an integer, NaN among them
 };
 
 /// Reads the input block by block and writes the output, which takes its place when it is complete; where

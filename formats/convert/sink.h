@@ -39,6 +39,8 @@ using OpenSink = Result<std::unique_ptr<Sink>> (*)(const Request& request, const
 
 [[nodiscard]] Result<std::unique_ptr<Sink>> open_tiff(const Request& request, const Choice& choice,
                                                       Outcome& outcome);
+[[nodiscard]] Result<std::unique_ptr<Sink>> open_png(const Request& request, const Choice& choice,
+                                                     Outcome& outcome);
 
 /// A format that is written.
 struct Target {

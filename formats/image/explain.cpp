@@ -125,15 +125,25 @@ Step curve_step(const CollapsePlan& plan) {
     return {"curve", "from X, Y, Z to " + join(plan.outputs, ", ")};
 }
 
+/// True where values refer to the space's own white already, to the last digit.
+bool is_adapted_already(const CollapsePlan& plan) {
+    const Vector3 white = plan.space.white.xyz(), &from = *plan.adapted_from;
+    return plan.space.kind != SpaceKind::Display && white[0] == from[0] && white[1] == from[1] &&
+           white[2] == from[2];
+}
+
 /// What costs nothing a pixel, since it is in the weights.
 std::vector<Step> folded_steps(const CollapsePlan& plan) {
     const std::string folded = ", in the weights";
     std::vector<Step> out;
     out.push_back(plan.filters.empty() ? Step{"filters", "none", true}
                                        : Step{"filters", counted(plan.filters.size(), "filter") + folded});
-    out.push_back(plan.adapted_from
-                      ? Step{"adaptation", std::string(adaptation_name(plan.request.adaptation)) + folded}
-                      : Step{"adaptation", "none: values refer to the white that they have", true});
+    if (!plan.adapted_from)
+        out.push_back({"adaptation", "none: values refer to the white that they have", true});
+    else if (is_adapted_already(plan))
+        out.push_back({"adaptation", "none: the white is the space's own", true});
+    else
+        out.push_back({"adaptation", std::string(adaptation_name(plan.request.adaptation)) + folded});
     out.push_back(plan.request.exposure_stops == 0
                       ? Step{"exposure", "0 stops", true}
                       : Step{"exposure", format_double(plan.request.exposure_stops) + " stops" + folded});

@@ -328,7 +328,7 @@ class Convert(EnviCase):
 
     def test_words_that_do_not_fit(self):
         self.shot()
-        for words, said in ((("cube.png",), "ends in .exr, .spexr, .hdr, .tif or .tiff"), (("cube.hdr", "-d", "half"), "for .exr"),
+        for words, said in ((("cube.jpg",), "ends in .exr, .spexr, .hdr, .tif, .tiff or .png"), (("cube.hdr", "-d", "half"), "for .exr"),
                             (("cube.hdr", "--compression", "zip"), "for .exr"), (("o.exr", "--interleave", "bil"), "for .hdr"),
                             (("o.exr", "-d", "uint8"), "half or float"), (("cube.hdr", "--interleave", "x"), "bsq, bil or bip"),
                             (("o.exr", "--compression", "x"), "no compression")):

@@ -139,6 +139,40 @@ class Read(StackCase):
             for name, pixels in self.channels_of("shot.exr").items():
                 self.assertTrue(np.array_equal(self.channels_of("back.exr")[name], pixels))
 
+    def test_a_cube_as_png_files_keeps_16_bits(self):
+        numbers = self.numbers(bands=3, shape=(70, 33))
+        channels = {f"T.{nm}nm": (band / 65535).astype(np.float32) for nm, band in zip((450, 550.5, 650), numbers)}
+        self.write_exr("shot.exr", {name.replace("550.5", "550,5"): band for name, band in channels.items()})
+        report = self.osiotool_json("convert", "shot.exr", "b_{nm}.png", "--split", "bands")
+        names = [f"b_{nm}.png" for nm in ("450", "550.5", "650")]
+        self.assertEqual(report["outputs"], names)
+        self.assertEqual((report["types"], report["clipped_samples"]), (["uint16"], 0))
+        self.assertTrue(any("1/65535" in words for words in report["lost"]), report["lost"])
+        for name, band in zip(names, numbers):
+            image = oiio.ImageInput.open(self.path(name))
+            self.assertEqual((image.format_name(), image.spec().nchannels, image.spec().format), ("png", 1, oiio.UINT16))
+            self.assertTrue(np.array_equal(image.read_image(oiio.UINT16)[..., 0], band))
+        self.osiotool("convert", "--assemble", *names, "back.exr", "--wavelengths", self.write_table(
+            "nm.csv", "b_450,450", "b_550.5,550.5", "b_650,650"))
+        for name, band in self.channels_of("back.exr").items():
+            self.assertTrue(np.array_equal(band, channels[name.replace(",", ".")]))
+
+    def test_what_a_png_file_cannot_hold_is_said(self):
+        band = np.array([[-0.5, 0, 0.25], [1, 1.5, np.nan]], np.float32)
+        self.write_exr("s.exr", {"S0.500nm": band}, attributes=[("note", "kept elsewhere")])
+        report = self.osiotool_json("convert", "s.exr", "s.png")
+        self.assertEqual(report["clipped_samples"], 3)
+        for words in ("radiance", "note", "1/65535"):
+            self.assertTrue(any(words in lost for lost in report["lost"]), report["lost"])
+        pixels = oiio.ImageInput.open(self.path("s.png")).read_image(oiio.UINT16)[..., 0]
+        self.assertEqual(pixels.tolist(), [[0, 0, 16384], [65535, 65535, 0]])
+        self.write_exr("a.exr", self.bands([450, 550]))
+        for options, words in (((), "--split bands"), (("-d", "half", "--split", "bands"), "PNG 16 bits"),
+                               (("--compression", "zip", "--split", "bands"), "PNG has"),
+                               (("--tile", "16x16", "--split", "bands"), ".exr output")):
+            self.assertIn(words, self.osiotool("convert", "a.exr", "b_{nm}.png", *options, code=2).stderr)
+        self.osiotool("convert", "a.exr", "missing/b_{nm}.png", "--split", "bands", code=5)
+        self.assertEqual(self.files(), ["a.exr", "s.exr", "s.png"])
 
     def test_files_without_a_list_are_assembled(self):
         numbers = self.numbers(bands=12)

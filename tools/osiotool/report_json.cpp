@@ -264,6 +264,7 @@ std::string convert_json(const ConvertReport& report) {
                  {"types", outcome.types},
                  {"lost", outcome.lost},
                  {"clamped_samples", outcome.clamped_samples},
+                 {"clipped_samples", outcome.clipped_samples},
                  {"seconds", report.seconds},
                  {"warnings", outcome.warnings}});
 }

@@ -231,6 +231,8 @@ std::string convert_text(const ConvertReport& report) {
     if (outcome.clamped_samples > 0)
         out +=
             fmt::format("note: {} samples beyond +-65504 were written as +-65504\n", outcome.clamped_samples);
+    if (outcome.clipped_samples > 0)
+        out += fmt::format("note: {} samples were clipped to 0 to 1\n", outcome.clipped_samples);
     return out;
 }
 
