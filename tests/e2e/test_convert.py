@@ -106,6 +106,32 @@ class Matrix(ConvertCase):
     def test_4098_bands(self):
         self.check_matrix(self.source([350 + 0.25 * i for i in range(4098)], shape=(2, 3)), [FORMATS[0], FORMATS[3]])
 
+    def test_band_files_to_every_format_and_back(self):
+        nm = [400, 450.5, 500, 1004.75]
+        source = self.source(nm)
+        before = self.raw(source)
+
+        def steps(planes):
+            """What 16 bits keep of shares from 0 to 1."""
+            return {name: (np.rint(plane.view(np.float32).astype(float) * 65535) / 65535).astype(np.float32).view(np.uint32)
+                    for name, plane in planes.items()}
+
+        for kind, kept in ((".exr", dict), (".tif", dict), (".png", steps)):
+            def stack_of(name, kind=kind):
+                self.osiotool("convert", name, "b_{nm}" + kind, "--split", "bands")
+                return self.write_table("b.stack", "#spectral-stack", *(f"b_{w}{kind}, {w}" for w in nm))
+
+            stack_of(source)
+            self.assert_same(self.raw("b.stack"), kept(before))
+            for i, there in enumerate(FORMATS):
+                name = there.name(f"there{i}")
+                self.osiotool("convert", "b.stack", name, *there.words)
+                self.assert_same(self.raw(name), self.rounded(kept(before), there.bits))
+                self.assertEqual(self.sets(name)[0]["wavelengths_nm"], nm)
+            for i, first in enumerate(FORMATS):
+                stack_of(first.name(f"there{i}"))
+                self.assert_same(self.raw("b.stack"), kept(self.rounded(kept(before), first.bits)))
+
     def test_attributes_come_back_from_every_format(self):
         source = self.source(GRID)
         expected = [line for line in self.check("exrheader", source).splitlines()

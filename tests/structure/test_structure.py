@@ -26,7 +26,7 @@ LIBRARIES = {
     r"libdeflate\.h": r"formats/(exr/zip_codec|tiff/strip_packer)\.cpp",
     r"OpenEXR/|Imath/": r"formats/(convert|envi|exr|image|stack|tiff|trade)/|plugins/|tools/host_module/|examples/",
     r"tiffio\.h": r"formats/tiff/",
-    r"png\.h": r"formats/stack/png_pixels\.cpp",
+    r"png\.h": r"formats/stack/png_(pixels|writer)\.cpp",
     r"pugixml\.hpp": r"formats/tiff/(gdal_metadata|xmp_bands)\.cpp",
     r"OpenImageIO/": r"plugins/|tools/host_module/",
     r"OpenColorIO/": r"plugins/ocio/",
