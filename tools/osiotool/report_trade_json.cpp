@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tools/osiotool/json_text.h>
 #include <tools/osiotool/report_trade.h>
+#include <tools/osiotool/report_trade_json.h>
 
 namespace osio::tool {
 
-std::string trade_json(const std::string& input, const trade::Table& table) {
+Json trade_object(const std::string& input, const trade::Table& table) {
     Json choices = Json::array();
     for (const trade::Offer& offer : table.offers) {
         const trade::Cost& cost = offer.cost;
@@ -30,13 +30,17 @@ std::string trade_json(const std::string& input, const trade::Table& table) {
                            {"largest_xyz", offer.worth.largest_xyz},
                            {"front", offer.on_front}});
     }
-    return dump({{"input", input},
-                 {"recipe", table.recipe},
-                 {"white_luminance", table.white_luminance},
-                 {"white_luminance_from", table.white_reason},
-                 {"runs", table.runs},
-                 {"workers", table.workers},
-                 {"choices", std::move(choices)}});
+    return {{"input", input},
+            {"recipe", table.recipe},
+            {"white_luminance", table.white_luminance},
+            {"white_luminance_from", table.white_reason},
+            {"runs", table.runs},
+            {"workers", table.workers},
+            {"choices", std::move(choices)}};
+}
+
+std::string trade_json(const std::string& input, const trade::Table& table) {
+    return dump(trade_object(input, table));
 }
 
 }  // namespace osio::tool
