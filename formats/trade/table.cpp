@@ -13,7 +13,7 @@ constexpr double kWorthShare = 0.2;
 
 /// A choice that another makes pointless: nearer, or as near, and not slower; and better in one of both.
 bool beats(const Offer& a, const Offer& b) {
-    const double near_a = a.worth.delta_e.maximum(), near_b = b.worth.delta_e.maximum();
+    const double near_a = a.worth.delta_e_max, near_b = b.worth.delta_e_max;
     const bool same_time = a.cost.all.same_as(b.cost.all);
     const bool faster = !same_time && a.cost.all.median < b.cost.all.median;
     return near_a <= near_b && (faster || (same_time && near_a < near_b));

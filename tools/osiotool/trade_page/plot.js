@@ -57,9 +57,8 @@ function drawPlot() {
       draw('circle', {class: 'hit', cx, cy, r: 12}),
       draw('line', {x1: x(choice.fastest), x2: x(choice.slowest), y1: cy, y2: cy}),
       draw('circle', {class: 'halo', cx, cy, r: 8}), draw('circle', {class: 'dot', cx, cy, r: 4}));
-    const label = placeLabel(choice.choice, [x(choice.fastest), cx, x(choice.slowest)], cy, taken);
-    if (label)
-      group.append(draw('text', label, choice.choice));
+    const place = placeLabel(choice.choice, [x(choice.fastest), cx, x(choice.slowest)], cy, taken);
+    group.append(draw('text', place ?? {class: 'hidden', x: cx + 10, y: cy - 8}, choice.choice));
     listen(group, index);
     groups[index] = group;
   }

@@ -15,6 +15,6 @@ function drawTable() {
   const undefinedPixels = choices[0].undefined_pixels;
   byId('table-note').textContent = '● on the Pareto front of seconds and largest CIEDE2000: no other choice is both ' +
     'surely faster and as near. “same”: the runs overlap with those of exact. decode, collapse and write are shares of ' +
-    'the run in the middle.' +
+    'the run in the middle; MB are 10⁶ bytes, peak is that of resident memory.' +
     (undefinedPixels ? ` ${undefinedPixels} pixels have no colour (NaN or infinite) and enter no difference.` : '');
 }
