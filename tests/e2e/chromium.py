@@ -16,7 +16,7 @@ PATIENCE_S = 60
 
 
 class Chromium:
-    """One page, as large as asked for, without a network. Used with `with`."""
+    """One page, as large as asked for, without a network."""
 
     def __init__(self, width, height, dark=False):
         self.profile = tempfile.mkdtemp(prefix="osio-chromium-")
@@ -40,10 +40,7 @@ class Chromium:
         self.call("Emulation.setEmulatedMedia", features=[
             {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
 
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
+    def close(self):
         self.session = None
         try:
             self.call("Browser.close")

@@ -23,6 +23,8 @@ function verdict(choice) {
   return `${choice.choice}: ${choice.meaning}. ${price}; ${time}. Not worth taking: ${better.choice} is ${how}.`;
 }
 
+const places = [];  // of the choices' points
+
 function drawPlot() {
   const svg = byId('plot'), key = state.measure;
   svg.replaceChildren();
@@ -46,6 +48,7 @@ function drawPlot() {
     {x: x(c.fastest), y: y(c[key]) - 2, w: x(c.slowest) - x(c.fastest), h: 4}]);
   const order = choices.map((c, i) => i).sort((a, b) => choices[b].front - choices[a].front || a - b);
   const groups = [];
+  places.length = 0;
   for (const index of order) {
     const choice = choices[index], cx = x(choice.seconds), cy = y(choice[key]);
     const group = draw('g', {
@@ -54,13 +57,12 @@ function drawPlot() {
       'aria-label': `${choice.choice}: ${seconds(choice.seconds)} s, CIEDE2000 ${difference(choice[key])}`},
       draw('title', {}, `${choice.choice}: ${seconds(choice.seconds)} s (${seconds(choice.fastest)}–` +
         `${seconds(choice.slowest)}), CIEDE2000 ${difference(choice[key])}`),
-      draw('circle', {class: 'hit', cx, cy, r: 12}),
       draw('line', {x1: x(choice.fastest), x2: x(choice.slowest), y1: cy, y2: cy}),
       draw('circle', {class: 'halo', cx, cy, r: 8}), draw('circle', {class: 'dot', cx, cy, r: 4}));
     const place = placeLabel(choice.choice, [x(choice.fastest), cx, x(choice.slowest)], cy, taken);
     group.append(draw('text', place ?? {class: 'hidden', x: cx + 10, y: cy - 8}, choice.choice));
-    listen(group, index);
     groups[index] = group;
+    places[index] = [cx, cy];
   }
   svg.append(...groups);
   markChosen();
@@ -82,18 +84,32 @@ function placeLabel(text, [left, cx, right], cy, taken) {
   return null;
 }
 
-function listen(element, index) {
-  element.addEventListener('click', () => choose(index));
-  element.addEventListener('pointerenter', () => pointAt(index, true));
-  element.addEventListener('pointerleave', () => pointAt(index, false));
+// Of points that are close the nearest is meant.
+function followPlot() {
+  const svg = byId('plot'), kReach = 20;
+  const nearest = event => {
+    const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(svg.getScreenCTM().inverse());
+    const away = places.map(([x, y]) => Math.hypot(at.x - x, at.y - y)), least = Math.min(...away);
+    return least < kReach ? away.indexOf(least) : null;
+  };
+  svg.addEventListener('pointermove', event => pointAt(nearest(event)));
+  svg.addEventListener('pointerleave', () => pointAt(null));
+  svg.addEventListener('click', event => {
+    const index = nearest(event);
+    if (index !== null)
+      choose(index);
+  });
 }
 
 const pairOf = index => [byId('plot').querySelector(`[data-choice="${CSS.escape(choices[index].choice)}"]`),
                          byId('table').tBodies[0].rows[index]];
 
-function pointAt(index, on) {
-  for (const element of pairOf(index))
-    element.classList.toggle('pointed', on);
+// Marks a choice in plot and table; null: none.
+function pointAt(index) {
+  for (const element of document.querySelectorAll('.pointed'))
+    element.classList.remove('pointed');
+  for (const element of index === null ? [] : pairOf(index))
+    element.classList.add('pointed');
 }
 
 function markChosen() {

@@ -40,6 +40,7 @@ function start() {
   drawTable();
   prepareStages();
   drawPlot();
+  followPlot();
   stepThrough(byId('plot'), ([point]) => point);
   stepThrough(byId('table').tBodies[0], ([, row]) => row.querySelector('button'));
   choose(0);

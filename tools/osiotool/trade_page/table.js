@@ -9,7 +9,9 @@ function drawTable() {
       make('td', {}, c.front ? make('span', {title: 'on the Pareto front'}, '●') : ''),
       make('th', {scope: 'row'}, make('button', {type: 'button'}, c.choice)),
       ...cells.map(text => make('td', {}, String(text))));
-    listen(row, index);
+    row.addEventListener('click', () => choose(index));
+    row.addEventListener('pointerenter', () => pointAt(index));
+    row.addEventListener('pointerleave', () => pointAt(null));
     byId('table').tBodies[0].append(row);
   });
   const undefinedPixels = choices[0].undefined_pixels;
