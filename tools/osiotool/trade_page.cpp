@@ -18,6 +18,7 @@ Json spectra_json(const image::CollapseJob& job, const trade::PageContent& conte
     const SpectralSet& set = job.set();
     Json out = grid_json(content.spectra_grid);
     out["set"] = set.name();
+    out["pairs"] = set.reradiation.size();
     out["wavelengths_nm"] = set.wavelengths_nm();
     out["quantity"] = quantity_name(set.quantity());
     out["units"] = set.quantity() == Quantity::Radiance

@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-function roundSteps(low, high, count) {
+function roundStep(low, high, count) {
   const rough = (high - low) / count, power = 10 ** Math.floor(Math.log10(rough)), share = rough / power;
-  const step = power * (share > 5 ? 10 : share > 2 ? 5 : share > 1 ? 2 : 1), out = [];
+  return power * (share > 5 ? 10 : share > 2 ? 5 : share > 1 ? 2 : 1);
+}
+
+function roundSteps(low, high, count) {
+  const step = roundStep(low, high, count), out = [];
   for (let n = Math.ceil(low / step - 1e-9); n * step <= high + 1e-9 * step; ++n)
     out.push(n * step);
   return out;
+}
+
+// A range that begins and ends with a step.
+function roundEnds(low, high, count) {
+  const step = roundStep(low, high, count);
+  return [Math.floor(low / step + 1e-9) * step, Math.ceil(high / step - 1e-9) * step];
 }
 
 // The next of 1, 2 and 5 times a power of ten.
@@ -25,7 +35,7 @@ function logSteps(low, high) {
   }
 }
 
-const kPlot = {left: 66, right: 596, top: 14, bottom: 350};
+const kPlot = {left: 76, right: 596, top: 14, bottom: 350};
 
 function frame(svg, x, y, xTitle, yTitle) {
   const axis = draw('g', {class: 'axis'});
@@ -39,6 +49,6 @@ function frame(svg, x, y, xTitle, yTitle) {
   }
   const middle = (kPlot.top + kPlot.bottom) / 2;
   axis.append(draw('text', {x: (kPlot.left + kPlot.right) / 2, y: 390, 'text-anchor': 'middle'}, xTitle),
-              draw('text', {transform: `translate(14 ${middle}) rotate(-90)`, 'text-anchor': 'middle'}, yTitle));
+              draw('text', {transform: `translate(12 ${middle}) rotate(-90)`, 'text-anchor': 'middle'}, yTitle));
   svg.append(axis);
 }

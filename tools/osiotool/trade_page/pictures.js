@@ -63,7 +63,7 @@ const count = (n, one, many) => n === 1 ? `one ${one}` : `${n} ${many}`;
 function drawNotes() {
   const squares = page.columns * page.rows, side = page.side, clipped = page.choices[state.choice].clipped;
   const what = side === 1 ? 'every pixel' : `the mean light of squares of ${side}x${side} pixels`;
-  byId('picture-note').textContent = `Pictures show ${what} (${page.columns}x${page.rows}, 480 at most) as linear ` +
+  byId('picture-note').textContent = `Pictures show ${what} (${page.columns}x${page.rows}, 480 a side at most) as linear ` +
     'Rec.709 with the sRGB curve, in 8 bits, white as of the CIEDE2000; ' +
     (clipped ? `${count(clipped, 'square', 'squares')} of ${squares} under this choice lie outside what that holds and are clipped`
              : 'none of this choice is clipped') +

@@ -12,7 +12,7 @@ function verdict(choice) {
   const price = choice.delta_e_max === 0 ? 'No pixel differs from the reference'
       : `Pixels are up to ${difference(choice.delta_e_max)} CIEDE2000 from the reference`;
   const time = choice.choice === 'exact' ? 'this is the exact collapse'
-      : choice.against_exact === 'same' ? 'no faster and no slower than exact that noise would let one see'
+      : choice.against_exact === 'same' ? 'noise hides whether it is faster or slower than exact'
       : `it takes ${choice.against_exact} of the time of exact`;
   if (choice.front)
     return `${choice.choice}: ${choice.meaning}. ${price}; ${time}. On the front.`;

@@ -35,8 +35,7 @@ async function drawPlace() {
 function drawCurve(values, pixelX, pixelY) {
   const svg = byId('curve'), nm = spectra.wavelengths_nm, finite = values.filter(Number.isFinite);
   const peak = Math.max(0, ...finite), least = Math.min(0, ...finite);
-  // Ends that stay while one moves over pixels of one kind.
-  const high = peak > 0 ? roundUp(peak) : least < 0 ? 0 : 1, low = least < 0 ? -roundUp(-least) : 0;
+  const [low, high] = roundEnds(least, peak === least ? 1 : peak, 5);
   const room = nm.length > 1 ? 0 : 10, first = nm[0] - room, last = nm[nm.length - 1] + room;
   const x = w => kPlot.left + (w - first) / ((last - first) || 1) * (kPlot.right - kPlot.left);
   const y = v => kPlot.bottom - (v - low) / (high - low) * (kPlot.bottom - kPlot.top);

@@ -25,7 +25,8 @@ function start() {
     `Median of ${count(trade.runs, 'run', 'runs')} on ${count(trade.workers, 'worker', 'workers')}.`;
   byId('spectra-note').textContent = `Bands of set ${spectra.set} ` +
     (spectra.side === 1 ? 'at every pixel' : `at the middle pixel of each ${spectra.side}x${spectra.side}`) +
-    ', as stored, rounded to 11 significant bits.';
+    ', as stored, rounded to 11 significant bits.' +
+    (spectra.pairs ? ` The set is fluorescent: its ${spectra.pairs} pairs are not shown.` : '');
   byId('choices').append(...choices.map((c, i) => make('option', {value: i}, c.choice)));
   byId('choices').addEventListener('change', event => choose(Number(event.target.value)));
   byId('flip').addEventListener('click', flip);
