@@ -25,10 +25,12 @@ class Chromium:
         flags = ["--headless", "--no-sandbox", "--disable-gpu", "--disable-dev-shm-usage", "--no-first-run",
                  "--remote-debugging-pipe", f"--user-data-dir={self.profile}", "--hide-scrollbars",
                  "--force-color-profile=srgb", "--host-resolver-rules=MAP * ~NOTFOUND", f"--window-size={width},{height}"]
+        # A sanitizer's libraries, which the tests' Python loads, are not for the browser.
+        environment = {key: value for key, value in os.environ.items() if key != "LD_PRELOAD"}
         # The shell puts the pipes where the browser looks for them.
         script = f'exec "$@" 3<&{to_browser} 4>&{from_browser}'
         self.process = subprocess.Popen(["bash", "-c", script, "chromium", PROGRAM, *flags, "about:blank"],
-                                        pass_fds=(to_browser, from_browser), stderr=subprocess.DEVNULL)
+                                        pass_fds=(to_browser, from_browser), env=environment, stderr=subprocess.DEVNULL)
         os.close(to_browser)
         os.close(from_browser)
         self.buffer, self.number, self.events, self.session = b"", 0, [], None

@@ -3,15 +3,19 @@
 without a network."""
 
 import base64
+import collections
 import json
 import os
 import re
+import signal
+import subprocess
+import time
 import unittest
 import zlib
 
 import numpy as np
 from chromium import PROGRAM, Chromium
-from osio_case import OsioCase
+from osio_case import FLOAT, HALF, OSIOTOOL, OsioCase
 
 GRID = list(range(400, 701, 10))
 SHAPE = (40, 60)
@@ -37,7 +41,7 @@ class PageCase(OsioCase):
         page = held["page"]
         view = page["choices"][[c["choice"] for c in held["choices"]].index(choice)]
         codes = self.codes(view["codes"], (page["rows"], page["columns"]))
-        return np.where(codes == UNDEFINED, np.nan, codes * view["unit"]), view["unit"]
+        return np.where(codes == UNDEFINED, np.nan, codes * view["factor"]), view["factor"]
 
     def picture_of(self, held, choice):
         """The picture of a choice as the file holds it, 0 to 1."""
@@ -107,6 +111,28 @@ class File(PageCase):
         self.assertTrue(np.isnan(found[0, 0]))
         self.assertEqual(np.isnan(found).sum(), 1)
 
+    def test_halves_stay_what_they_are_and_floats_lose_little(self):
+        samples = np.random.default_rng(3).normal(size=(31, 5, 7)).astype(np.float32) * 10.0 ** np.arange(-4, 3).astype(np.float32)
+        samples[4, 2, 1:3] = np.nan, np.inf
+        for types, scale in ((HALF, 1), (FLOAT, 1e-12), (FLOAT, 1e9)):
+            bands = {f"S0.{nm}nm": plane * np.float32(scale) for nm, plane in zip(GRID, samples)}
+            self.write_exr("s.exr", bands, types=types)
+            _, _, held = self.page("s.exr")
+            spectra = held["page"]["spectra"]
+            self.assertEqual(spectra["wavelengths_nm"], GRID)
+            found = self.codes(spectra["codes"], samples.shape).view(np.float16).astype(np.float64) * spectra["factor"]
+            stored = self.channels_of("s.exr")
+            wanted = np.stack([stored[name] for name in bands]).astype(np.float64)
+            if types == HALF:
+                self.assertTrue(np.array_equal(found, wanted, equal_nan=True))
+            else:
+                self.assertTrue(np.array_equal(np.isnan(found), np.isnan(wanted)))
+                largest = np.abs(wanted[np.isfinite(wanted)]).max()
+                allowed = np.maximum(2.0 ** -11 * np.abs(wanted), 2.0 ** -39 * largest)
+                finite = np.isfinite(wanted)
+                self.assertTrue((np.abs(found[finite] - wanted[finite]) <= allowed[finite]).all())
+                self.assertTrue((found[np.isinf(wanted)] == np.inf).all())
+
     def test_noise_stays_within_the_limit(self):
         self.write_exr("noise.exr", self.bands(range(400, 701, 20), (480, 480)), compression="none")
         text, _, held = self.page("noise.exr", "--illuminant", "FL11")
@@ -130,6 +156,46 @@ class File(PageCase):
         with open(self.path("page.html")) as file:
             self.assertEqual(file.read(), "old")
         self.assertEqual(self.files(), ["a.exr", "page.html"])
+
+    def test_whatever_call_fails_the_old_page_stays(self):
+        self.write_exr("a.exr", self.bands(GRID, (8, 8)))
+        os.mkdir(self.path("out"))
+        folder = os.path.realpath(self.path("out"))
+
+        def trade(call="", at=-1):
+            with open(self.path("out/page.html"), "w") as file:
+                file.write("old")
+            env = {"OSIO_FAULT_UNDER": folder, "OSIO_FAULT_LOG": self.path("log"), "OSIO_FAULT_CALL": call,
+                   "OSIO_FAULT_AT": str(at), "OSIO_FAULT_ERRNO": "ENOSPC", "LD_PRELOAD": ":".join(filter(None, (
+                       os.environ.get("LD_PRELOAD", "").replace(" ", ":"), os.environ["OSIO_TEST_FAILING_CALLS"])))}
+            return self.run_program(OSIOTOOL, "trade", "a.exr", "--illuminant", "A", "--runs", "1", "--quiet", "--html",
+                                    folder + "/page.html", env=env)
+
+        self.assertEqual(trade().returncode, 0)
+        with open(self.path("log")) as file:
+            counts = collections.Counter(file.read().split())
+        self.assertEqual(counts["rename"], 1)
+        self.assertGreater(counts["write"], 0)
+        for call, count in counts.items():
+            for at in range(count):
+                result = trade(call, at)
+                self.assertEqual(result.returncode, 5, (call, at, result.stderr))
+                self.assertIn("page.html", result.stderr, (call, at))
+                self.assertEqual(os.listdir(folder), ["page.html"], (call, at))
+                with open(self.path("out/page.html")) as file:
+                    self.assertEqual(file.read(), "old", (call, at))
+
+    def test_an_interrupt_leaves_no_page(self):
+        self.write_exr("a.exr", self.bands(GRID, SHAPE))
+        process = subprocess.Popen([OSIOTOOL, "trade", "a.exr", "--illuminant", "A", "--runs", "10000", "--html", "page.html"],
+                                   cwd=self.folder, stderr=subprocess.DEVNULL)
+        deadline = time.monotonic() + 60
+        while len(self.files()) == 1 and time.monotonic() < deadline:
+            time.sleep(0.01)
+        self.assertEqual(len(self.files()), 2)
+        process.send_signal(signal.SIGINT)
+        self.assertEqual(process.wait(60), 130)
+        self.assertEqual(self.files(), ["a.exr"])
 
 
 @unittest.skipUnless(PROGRAM, "chromium is not installed")

@@ -50,10 +50,10 @@ Result<ExitCode> run_trade(const TradeOptions& options) {
     }
     const TextLoader load_text = files::text_loader({});
     OSIO_TRY(const image::CollapseJob job, image::open_collapse(options.input, request, load_text));
-    OSIO_TRY(std::optional<files::ReplacementFile> page_file, open_page(options.html));
     ThreadRunner runner(options.threads);
     exr::set_compression_threads(runner.worker_count());
     catch_interrupts();
+    OSIO_TRY(std::optional<files::ReplacementFile> page_file, open_page(options.html));
     trade::Table table;
     std::string page;
     {

@@ -24,7 +24,7 @@ Json spectra_json(const image::CollapseJob& job, const trade::PageContent& conte
     out["units"] = set.quantity() == Quantity::Radiance
                        ? Json(job.part().metadata.emissive_units.value_or(std::string(kWrittenEmissiveUnits)))
                        : Json(nullptr);
-    out["unit"] = content.spectra_unit;
+    out["factor"] = content.spectra_unit;
     out["codes"] = base64(content.spectra);
     return out;
 }
@@ -38,7 +38,7 @@ Json views_json(const trade::Table& table, const trade::PageContent& content) {
                          [&offer](const trade::ChoiceView& one) { return one.name == offer.name; });
         out.push_back({{"picture", view->picture},
                        {"clipped", view->clipped},
-                       {"unit", view->delta_e_unit},
+                       {"factor", view->delta_e_unit},
                        {"codes", base64(view->delta_e)}});
     }
     return out;

@@ -28,7 +28,7 @@ async function drawMap() {
     return;
   canvas.width = page.columns;
   canvas.height = page.rows;
-  const image = new ImageData(page.columns, page.rows), unit = page.choices[choice].unit;
+  const image = new ImageData(page.columns, page.rows), unit = page.choices[choice].factor;
   for (let i = 0; i < codes.length; ++i) {
     const colour = codes[i] === kUndefined ? [128, 128, 128] : colourOf(scale.share(codes[i] * unit));
     image.data.set([...colour, 255], 4 * i);
@@ -68,6 +68,6 @@ function drawNotes() {
     (clipped ? `${count(clipped, 'square', 'squares')} of ${squares} under this choice lie outside what that holds and are clipped`
              : 'none of this choice is clipped') +
     '. The map has the largest CIEDE2000 of the pixels of each square, rounded up by less than ' +
-    `${page.choices[state.choice].unit.toPrecision(1)}; grey has no colour.` +
+    `${page.choices[state.choice].factor.toPrecision(1)}; grey has no colour.` +
     (stretched ? ' The image is drawn stretched.' : '');
 }

@@ -20,15 +20,15 @@ async function drawPlace() {
   const ratio = spectra.side / page.side, sColumn = Math.floor(column / ratio), sRow = Math.floor(row / ratio);
   const x = middle(sColumn, spectra.side, minX, maxX), y = middle(sRow, spectra.side, minY, maxY);
   const values = spectra.wavelengths_nm.map((_, band) =>
-    half(codes[(band * spectra.rows + sRow) * spectra.columns + sColumn]) * spectra.unit);
+    half(codes[(band * spectra.rows + sRow) * spectra.columns + sColumn]) * spectra.factor);
   const code = map[row * page.columns + column];
-  const delta = code === kUndefined ? 'none' : difference(code * page.choices[choice].unit);
+  const delta = code === kUndefined ? 'none' : difference(code * page.choices[choice].factor);
   const left = minX + column * page.side, top = minY + row * page.side;
   const where = page.side === 1 ? `pixel ${left}, ${top}`
     : `pixels ${left}–${Math.min(left + page.side - 1, maxX)}, ${top}–${Math.min(top + page.side - 1, maxY)}`;
   byId('place').textContent = `${where}: ${page.side === 1 ? '' : 'largest '}CIEDE2000 of ${choices[choice].choice} ${delta}` +
     (spectra.side === 1 ? '' : `; spectrum of pixel ${x}, ${y}`);
-  byId('place').dataset.deltaE = code === kUndefined ? 'NaN' : code * page.choices[choice].unit;
+  byId('place').dataset.deltaE = code === kUndefined ? 'NaN' : code * page.choices[choice].factor;
   drawCurve(values, x, y);
 }
 
