@@ -5,6 +5,7 @@
 #include <formats/trade/number_codes.h>
 #include <formats/trade/page_content.h>
 #include <formats/trade/pictures.h>
+#include <formats/trade/progress_part.h>
 
 #include <algorithm>
 
@@ -14,6 +15,9 @@ namespace {
 
 /// Spectra take no more room than this, however much there is, packed and as codes: they are looked at one by one.
 constexpr std::size_t kMostPackedSpectra = 4'000'000, kMostSpectraCodes = 16'000'000;
+
+/// The share of the work that comparing every pixel is, about.
+constexpr double kViewsShare = 0.8;
 
 image::BlockGrid picture_grid(const image::Window& window) {
     const int longest = std::max(window.width(), window.height());
@@ -78,13 +82,15 @@ Result<PageContent> make_page_content(const image::CollapseJob& job, double whit
     OSIO_TRY(const Choices choices, make_choices(job, white_luminance, load_text));
     PageContent out;
     out.grid = picture_grid(job.part().data_window);
-    OSIO_TRY(std::size_t used, add_views(job, choices, runner, progress, out));
+    const Progress of_views = progress_part(progress, 0, kViewsShare);
+    OSIO_TRY(std::size_t used, add_views(job, choices, runner, of_views, out));
     while (used > most_bytes / 3 * 2) {
         out.grid.side *= 2;
-        OSIO_TRY(used, add_views(job, choices, runner, progress, out));
+        OSIO_TRY(used, add_views(job, choices, runner, of_views, out));
     }
     const std::size_t room = std::min(most_bytes - used, kMostPackedSpectra);
-    OSIO_CHECK_OK(add_spectra(job, room, runner, progress, out));
+    const Progress of_spectra = progress_part(progress, kViewsShare, 1 - kViewsShare);
+    OSIO_CHECK_OK(add_spectra(job, room, runner, of_spectra, out));
     return out;
 }
 

@@ -3,11 +3,14 @@
 const kViridis = ['#440154', '#482878', '#3e4989', '#31688e', '#26828e', '#1f9e89', '#35b779', '#6ece58', '#b5de2b', '#fde725']
   .map(hex => [1, 3, 5].map(at => parseInt(hex.slice(at, at + 2), 16)));
 
-function colourOf(share) {
-  const place = Math.min(Math.max(share, 0), 1) * (kViridis.length - 1), low = Math.min(Math.floor(place), kViridis.length - 2);
-  return kViridis[low].map((from, c) => from + (place - low) * (kViridis[low + 1][c] - from));
-}
+const kRampEnd = 1023;
+const ramp = Array.from({length: kRampEnd + 1}, (_, i) => {
+  const place = i / kRampEnd * (kViridis.length - 1), low = Math.min(Math.floor(place), kViridis.length - 2);
+  return [...kViridis[low].map((from, c) => from + (place - low) * (kViridis[low + 1][c] - from)), 255];
+});
+const colourOf = share => ramp[Math.round(Math.min(Math.max(share, 0), 1) * kRampEnd)];
 
+const kNoColour = [128, 128, 128, 255];
 const kLeast = 0.01;  // CIEDE2000 that the common scale begins with: a hundredth of what an eye tells apart
 const most = Math.max(...choices.map(c => c.delta_e_max));
 
@@ -30,8 +33,7 @@ async function drawMap() {
   canvas.height = page.rows;
   const image = new ImageData(page.columns, page.rows), unit = page.choices[choice].factor;
   for (let i = 0; i < codes.length; ++i) {
-    const colour = codes[i] === kUndefined ? [128, 128, 128] : colourOf(scale.share(codes[i] * unit));
-    image.data.set([...colour, 255], 4 * i);
+    image.data.set(codes[i] === kUndefined ? kNoColour : colourOf(scale.share(codes[i] * unit)), 4 * i);
   }
   canvas.getContext('2d').putImageData(image, 0, 0);
   canvas.setAttribute('aria-label', `Map of CIEDE2000 under ${choices[choice].choice}, at most ` +

@@ -26,7 +26,7 @@ async function drawPlace() {
   const left = minX + column * page.side, top = minY + row * page.side;
   const where = page.side === 1 ? `pixel ${left}, ${top}`
     : `pixels ${left}–${Math.min(left + page.side - 1, maxX)}, ${top}–${Math.min(top + page.side - 1, maxY)}`;
-  byId('place').textContent = `${where}: ${page.side === 1 ? '' : 'largest '}CIEDE2000 of ${choices[choice].choice} ${delta}` +
+  byId('place').textContent = `${where}: ${page.side === 1 ? '' : 'largest '}CIEDE2000 ${delta} under ${choices[choice].choice}` +
     (spectra.side === 1 ? '' : `; spectrum of pixel ${x}, ${y}`);
   byId('place').dataset.deltaE = code === kUndefined ? 'NaN' : code * page.choices[choice].factor;
   drawCurve(values, x, y);
