@@ -80,6 +80,14 @@ class File(PageCase):
         self.assertIn("default-src 'none'", text)
         self.assertEqual(text.count("<script"), 2)
 
+    def test_it_goes_with_every_report(self):
+        self.write_exr("a.exr", self.bands(GRID, (8, 8)))
+        for option, start in (("--csv", "choice,bands,"), ("--quiet", "a.exr: to=")):
+            result = self.osiotool("trade", "a.exr", "--illuminant", "A", "--runs", "1", "--html", "page.HTM", option)
+            self.assertTrue(result.stdout.startswith(start))
+            self.assertEqual(self.files(), ["a.exr", "page.HTM"])
+            os.remove(self.path("page.HTM"))
+
     def test_pictures_and_maps_are_those_of_the_squares(self):
         self.write_exr("wide.exr", self.bands(GRID, (31, 1000)), origin=(5, -3))
         _, _, held = self.page("wide.exr", "--illuminant", "A")
