@@ -10,7 +10,7 @@ OSIO_PACKAGES="g++ cmake ninja-build pkg-config
 
 # What the tests drive besides.
 OSIO_TEST_PACKAGES="libgtest-dev openexr opencolorio-tools
-    python3 python3-numpy python3-openimageio python3-gdal"
+    python3 python3-numpy python3-openimageio python3-gdal chromium"
 
 # What fuzzing needs besides.
 OSIO_FUZZ_PACKAGES="clang-14 libclang-rt-14-dev"

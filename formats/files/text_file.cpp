@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/files/checked_file.h>
-#include <formats/files/replacement_file.h>
 #include <formats/files/text_file.h>
 
 #include <cerrno>
@@ -34,10 +33,14 @@ Result<std::string> read_text(const std::string& path) {
 
 Result<void> write_text(const std::string& path, std::string_view text) {
     OSIO_TRY(ReplacementFile file, ReplacementFile::create(path));
+    return write_text(std::move(file), text);
+}
+
+Result<void> write_text(ReplacementFile file, std::string_view text) {
     CheckedFile out(file.path());
     out.write(text.data(), text.size());
     if (out.close() != 0)
-        return fail(ErrorCode::Io, out.failure(), path);
+        return fail(ErrorCode::Io, out.failure(), file.target());
     return file.commit();
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <formats/files/replacement_file.h>
+
 #include <osio/base/result.h>
 #include <osio/collapse/plan.h>
 
@@ -18,6 +20,9 @@ inline constexpr std::size_t kMostTextBytes = std::size_t{1} << 24;
 /// Makes a text file, or puts it in an old one's place when it is complete. Io where the system refuses;
 /// the old file is then as it was.
 [[nodiscard]] Result<void> write_text(const std::string& path, std::string_view text);
+
+/// The same for a file whose place was made sure of before the text was known.
+[[nodiscard]] Result<void> write_text(ReplacementFile file, std::string_view text);
 
 /// `path` as seen from `folder`: absolute paths stay, an empty folder is the current one.
 [[nodiscard]] std::string seen_from(const std::string& folder, std::string_view path);

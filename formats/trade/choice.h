@@ -44,6 +44,7 @@ struct Choices {
     image::PlaneChannels planes;    ///< of the part: the plan's columns, then those of a preview
     std::vector<SampleType> types;  ///< of the planes
     Matrix3 share_from_output;      ///< X, Y, Z as shares of the white's, of R, G, B
+    Vector3 white{};                ///< X, Y, Z of that white, Y = 1
     std::vector<Choice> list;       ///< the first is the reference
 };
 

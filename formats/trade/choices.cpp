@@ -24,10 +24,11 @@ constexpr std::string_view kColourLight = "D65";
 
 class ChoiceMaker {
   public:
-    ChoiceMaker(const image::CollapseJob& job, const TextLoader& load_text, Matrix3 share_from_output)
+    ChoiceMaker(const image::CollapseJob& job, const TextLoader& load_text, const OutputColour& colour)
         : m_job(job), m_plan(job.plan), m_load_text(load_text),
-          m_output_from_share(inverse(share_from_output)) {
-        m_out.share_from_output = share_from_output;
+          m_output_from_share(inverse(colour.share_from_output)) {
+        m_out.share_from_output = colour.share_from_output;
+        m_out.white = colour.white;
         for (const PlanColumn& column : m_plan.columns)
             m_out.planes.emplace_back(column.channel);
         m_out.types = job.column_types();
@@ -312,7 +313,7 @@ Result<Choices> make_choices(const image::CollapseJob& job, double white_luminan
                                           "expected xyz, xyz_d65 or a linear RGB "
                                           "space such as lin_rec709");
     OSIO_TRY(const OutputColour colour, output_colour(plan, white_luminance));
-    return ChoiceMaker(job, load_text, colour.share_from_output).make();
+    return ChoiceMaker(job, load_text, colour).make();
 }
 
 }  // namespace osio::trade

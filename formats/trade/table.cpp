@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/image/white_luminance.h>
+#include <formats/trade/progress_part.h>
 #include <formats/trade/table.h>
 
 #include <algorithm>
@@ -13,7 +14,7 @@ constexpr double kWorthShare = 0.2;
 
 /// A choice that another makes pointless: nearer, or as near, and not slower; and better in one of both.
 bool beats(const Offer& a, const Offer& b) {
-    const double near_a = a.worth.delta_e.maximum(), near_b = b.worth.delta_e.maximum();
+    const double near_a = a.worth.delta_e_max, near_b = b.worth.delta_e_max;
     const bool same_time = a.cost.all.same_as(b.cost.all);
     const bool faster = !same_time && a.cost.all.median < b.cost.all.median;
     return near_a <= near_b && (faster || (same_time && near_a < near_b));
@@ -39,18 +40,15 @@ Result<Table> make_table(const image::CollapseJob& job, int runs, MemoryMeter me
     out.workers = runner.worker_count();
     out.runs = runs;
     OSIO_TRY(Choices choices, make_choices(job, white.y, load_text));
-    const auto within = [&progress](double from, double share) -> Progress {
-        if (!progress)
-            return {};
-        return [&progress, from, share](double done) { return progress(from + share * done); };
-    };
-    OSIO_TRY(const std::vector<Worth> worths, worth_of(job, choices, runner, within(0, kWorthShare)));
+    OSIO_TRY(const std::vector<Worth> worths,
+             worth_of(job, choices, runner, progress_part(progress, 0, kWorthShare)));
     OSIO_TRY(const auto bench, Workbench::create(job, std::move(choices), std::move(meter)));
     const std::vector<Choice>& list = bench->choices().list;
     const double each = (1 - kWorthShare) / static_cast<double>(list.size());
     for (std::size_t i = 0; i < list.size(); ++i) {
         const double from = kWorthShare + each * static_cast<double>(i);
-        OSIO_TRY(const Cost cost, bench->measure(i, runs, load_text, runner, within(from, 0)));
+        OSIO_TRY(const Cost cost,
+                 bench->measure(i, runs, load_text, runner, progress_part(progress, from, 0)));
         out.offers.push_back({list[i].name, list[i].meaning, list[i].bands, cost, worths[i], false});
     }
     sort_and_mark(out.offers);

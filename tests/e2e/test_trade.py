@@ -95,6 +95,15 @@ class Trade(OsioCase):
         self.assertEqual(table["white_luminance_from"], "the 99th percentile of Y")
         self.assertEqual(choices["exact"]["undefined_pixels"], 1)
 
+    def test_peaks_of_memory_are_those_of_the_choices(self):
+        if "san" in os.environ.get("LD_PRELOAD", ""):
+            self.skipTest("a sanitizer has memory of its own")
+        # Each of these reads and writes as much as the others: what the table itself holds must not add up in them.
+        _, choices = self.trade("a.exr", "--illuminant", "FL11")
+        peaks = [choices[name]["peak_mb"] for name in ("exact", "half output", "bands / 2", "band centres", "plain sum")]
+        print("MB:", peaks)
+        self.assertLess(max(peaks) - min(peaks), 16)
+
     def test_text_csv_and_what_does_not_fit(self):
         text = self.osiotool("trade", "a.exr", "--illuminant", "A", "--runs", "1").stdout
         self.assertIn("dE mean", text)

@@ -23,10 +23,10 @@ LIBRARIES = {
     r"xxhash\.h": r"formats/exr/checksum\.cpp",
     r"tl/": r"core/osio/base/result\.h",
     r"hwy/": r"core/osio/budget/magnitude_simd\.cpp|core/osio/collapse/kernel_simd\.cpp|formats/exr/zip_simd\.cpp",
-    r"libdeflate\.h": r"formats/(exr/zip_codec|tiff/strip_packer)\.cpp",
+    r"libdeflate\.h": r"formats/(exr/zip_codec|files/zlib_stream|tiff/strip_packer)\.cpp",
     r"OpenEXR/|Imath/": r"formats/(convert|envi|exr|image|stack|tiff|trade)/|plugins/|tools/host_module/|examples/",
     r"tiffio\.h": r"formats/tiff/",
-    r"png\.h": r"formats/stack/png_(pixels|writer)\.cpp",
+    r"png\.h": r"formats/(files/png_output|stack/png_(pixels|writer))\.cpp",
     r"pugixml\.hpp": r"formats/tiff/(gdal_metadata|xmp_bands)\.cpp",
     r"OpenImageIO/": r"plugins/|tools/host_module/",
     r"OpenColorIO/": r"plugins/ocio/",
@@ -151,6 +151,12 @@ class Files(unittest.TestCase):
             self.assertTrue(text(path).startswith("// SPDX-License-Identifier: Apache-2.0\n"), path)
             if path.endswith(".h"):
                 self.assertIn("#pragma once", text(path), path)
+
+    def test_the_page_of_a_trade_is_held_to_the_same(self):
+        for name in os.listdir(os.path.join(SOURCE, "tools/osiotool/trade_page")):
+            content = text(f"tools/osiotool/trade_page/{name}")
+            self.assertIn("SPDX-License-Identifier: Apache-2.0", content[:80], name)
+            self.assertLessEqual(content.count("\n"), 400, name)
 
     def test_one_idea_a_file(self):
         for path in sources(*PRODUCT):

@@ -5,13 +5,38 @@
 #include <tools/osiotool/report_trade.h>
 #include <tools/osiotool/request_words.h>
 #include <tools/osiotool/thread_runner.h>
+#include <tools/osiotool/trade_page.h>
 
 #include <formats/exr/exr_writer.h>
 #include <formats/files/text_file.h>
 
+#include <osio/base/text.h>
+
 #include <fmt/format.h>
 
+#include <optional>
+
 namespace osio::tool {
+
+namespace {
+
+/// The share of the work that measuring is, about, where a page is made too.
+constexpr double kTableShare = 0.85;
+
+/// The page's place, made sure of before minutes are spent on measuring.
+Result<std::optional<files::ReplacementFile>> open_page(const std::string& path) {
+    std::optional<files::ReplacementFile> out;
+    if (path.empty())
+        return out;
+    const std::string name = to_lower(path);
+    if (!name.ends_with(".html") && !name.ends_with(".htm"))
+        return fail(ErrorCode::Usage, "\"" + path + "\" is no .html, which --html writes");
+    OSIO_TRY(files::ReplacementFile file, files::ReplacementFile::create(path));
+    out.emplace(std::move(file));
+    return out;
+}
+
+}  // namespace
 
 Result<ExitCode> run_trade(const TradeOptions& options) {
     if (options.runs < 1)
@@ -28,11 +53,21 @@ Result<ExitCode> run_trade(const TradeOptions& options) {
     ThreadRunner runner(options.threads);
     exr::set_compression_threads(runner.worker_count());
     catch_interrupts();
+    OSIO_TRY(std::optional<files::ReplacementFile> page_file, open_page(options.html));
     trade::Table table;
+    std::string page;
     {
         ProgressBar bar(options.input, !options.quiet);
+        const double table_share = page_file ? kTableShare : 1;
         OSIO_TRY(table, trade::make_table(job, options.runs, {restart_peak_memory, peak_memory_mb}, load_text,
-                                          runner, std::ref(bar)));
+                                          runner, [&](double done) { return bar(table_share * done); }));
+        if (page_file) {
+            OSIO_TRY(const trade::PageContent content,
+                     trade::make_page_content(
+                         job, table.white_luminance, kMostPageStreamBytes, load_text, runner,
+                         [&](double done) { return bar(table_share + (1 - table_share) * done); }));
+            page = trade_page(job, table, content);
+        }
     }
     if (!options.quiet)
         for (const std::string& warning : job.warnings)
@@ -40,6 +75,9 @@ Result<ExitCode> run_trade(const TradeOptions& options) {
     fmt::print("{}", options.json  ? trade_json(options.input, table)
                      : options.csv ? trade_csv(table)
                                    : trade_text(options.input, table));
+    if (page_file) {
+        OSIO_CHECK_OK(files::write_text(std::move(*page_file), page));
+    }
     return kDone;
 }
 

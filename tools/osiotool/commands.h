@@ -140,6 +140,7 @@ struct TradeOptions {
     std::string input;
     RequestWords request;
     int runs = 3;
+    std::string html;  ///< a page to be written; empty: none
     unsigned threads = 0;
     bool quiet = false;
     bool json = false;

@@ -327,6 +327,8 @@ class CommandLine {
         command->add_option("input", m_trade.input, "spectral image")->required();
         add_request_options(*command, m_trade.request, {"max-delta-e", "names"});
         command->add_option("--runs", m_trade.runs, "of each choice; default 3")->type_name("N");
+        command->add_option("--html", m_trade.html, "a page with plot, pictures, maps and spectra")
+            ->type_name("OUT.html");
         command->add_option("--threads", m_trade.threads, "default: one a processor")->type_name("N");
         command->add_flag("--quiet", m_trade.quiet, "no warnings, no progress");
         command->add_flag("--json", m_trade.json, "as JSON");

@@ -49,7 +49,7 @@ std::string trade_text(const std::string& input, const trade::Table& table) {
                        {"XYZ", Align::Right}});
     for (const trade::Offer& offer : table.offers) {
         const trade::Cost& cost = offer.cost;
-        const ValueStatistics& delta = offer.worth.delta_e;
+        const trade::Worth& worth = offer.worth;
         columns.add({offer.on_front ? "*" : "", offer.name, std::to_string(offer.bands),
                      fmt::format("{:.3f}", cost.all.median),
                      fmt::format("{:.3f}-{:.3f}", cost.all.fastest, cost.all.slowest),
@@ -58,9 +58,9 @@ std::string trade_text(const std::string& input, const trade::Table& table) {
                      fmt::format("{:.3f}", cost.middle.write),
                      fmt::format("{:.1f}", static_cast<double>(cost.bytes_read) / kMega),
                      fmt::format("{:.1f}", static_cast<double>(cost.bytes_written) / kMega),
-                     fmt::format("{:.0f}", cost.peak_mb), delta_text(delta.mean()),
-                     delta_text(delta.percentile(95)), delta_text(delta.percentile(99.9)),
-                     delta_text(delta.maximum()), fmt::format("{:.1e}", offer.worth.largest_xyz)});
+                     fmt::format("{:.0f}", cost.peak_mb), delta_text(worth.delta_e_mean),
+                     delta_text(worth.delta_e_95), delta_text(worth.delta_e_99_9),
+                     delta_text(worth.delta_e_max), fmt::format("{:.1e}", worth.largest_xyz)});
     }
     std::string out = fmt::format("{}: {}\n", input, table.recipe);
     out += fmt::format(
@@ -68,7 +68,7 @@ std::string trade_text(const std::string& input, const trade::Table& table) {
         "largest CIEDE2000\n",
         table.white_luminance, table.white_reason, table.runs, table.workers);
     out += columns.text();
-    const std::uint64_t undefined = table.offers.front().worth.delta_e.undefined_count();
+    const std::uint64_t undefined = table.offers.front().worth.undefined_pixels;
     if (undefined > 0)
         out += fmt::format("note: {} pixels have no colour (NaN or infinite) and enter no difference\n",
                            undefined);
@@ -83,13 +83,12 @@ std::string trade_csv(const trade::Table& table) {
                       "delta_e_mean,delta_e_95,delta_e_99_9,delta_e_max,largest_xyz,front\n";
     for (const trade::Offer& offer : table.offers) {
         const trade::Cost& cost = offer.cost;
-        const ValueStatistics& delta = offer.worth.delta_e;
+        const trade::Worth& worth = offer.worth;
         out += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", offer.name, offer.bands,
                            cost.all.median, cost.all.fastest, cost.all.slowest, cost.forecast.times.total(),
                            cost.middle.decode, cost.middle.collapse, cost.middle.write, cost.bytes_read,
-                           cost.bytes_written, cost.peak_mb, delta.mean(), delta.percentile(95),
-                           delta.percentile(99.9), delta.maximum(), offer.worth.largest_xyz,
-                           offer.on_front ? 1 : 0);
+                           cost.bytes_written, cost.peak_mb, worth.delta_e_mean, worth.delta_e_95,
+                           worth.delta_e_99_9, worth.delta_e_max, worth.largest_xyz, offer.on_front ? 1 : 0);
     }
     return out;
 }

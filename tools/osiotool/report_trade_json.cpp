@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <tools/osiotool/json_text.h>
 #include <tools/osiotool/report_trade.h>
+#include <tools/osiotool/report_trade_json.h>
 
 namespace osio::tool {
 
-std::string trade_json(const std::string& input, const trade::Table& table) {
+Json trade_object(const std::string& input, const trade::Table& table) {
     Json choices = Json::array();
     for (const trade::Offer& offer : table.offers) {
         const trade::Cost& cost = offer.cost;
-        const ValueStatistics& delta = offer.worth.delta_e;
+        const trade::Worth& worth = offer.worth;
         choices.push_back({{"choice", offer.name},
                            {"meaning", offer.meaning},
                            {"bands", offer.bands},
@@ -24,21 +24,25 @@ std::string trade_json(const std::string& input, const trade::Table& table) {
                            {"bytes_read", cost.bytes_read},
                            {"bytes_written", cost.bytes_written},
                            {"peak_mb", cost.peak_mb},
-                           {"undefined_pixels", delta.undefined_count()},
-                           {"delta_e_mean", delta.mean()},
-                           {"delta_e_95", delta.percentile(95)},
-                           {"delta_e_99_9", delta.percentile(99.9)},
-                           {"delta_e_max", delta.maximum()},
-                           {"largest_xyz", offer.worth.largest_xyz},
+                           {"undefined_pixels", worth.undefined_pixels},
+                           {"delta_e_mean", worth.delta_e_mean},
+                           {"delta_e_95", worth.delta_e_95},
+                           {"delta_e_99_9", worth.delta_e_99_9},
+                           {"delta_e_max", worth.delta_e_max},
+                           {"largest_xyz", worth.largest_xyz},
                            {"front", offer.on_front}});
     }
-    return dump({{"input", input},
-                 {"recipe", table.recipe},
-                 {"white_luminance", table.white_luminance},
-                 {"white_luminance_from", table.white_reason},
-                 {"runs", table.runs},
-                 {"workers", table.workers},
-                 {"choices", std::move(choices)}});
+    return {{"input", input},
+            {"recipe", table.recipe},
+            {"white_luminance", table.white_luminance},
+            {"white_luminance_from", table.white_reason},
+            {"runs", table.runs},
+            {"workers", table.workers},
+            {"choices", std::move(choices)}};
+}
+
+std::string trade_json(const std::string& input, const trade::Table& table) {
+    return dump(trade_object(input, table));
 }
 
 }  // namespace osio::tool

@@ -29,7 +29,8 @@ Result<OutputColour> output_colour(const CollapsePlan& plan, double white_lumina
         return OutputColour{
             Matrix3{
                 {{{1 / white_luminance, 0, 0}, {1 / white_luminance, 0, 0}, {1 / white_luminance, 0, 0}}}},
-            true};
+            true,
+            {}};
     const Vector3 white = white_of(plan);
     if (!(white[0] > 0 && white[2] > 0))
         return fail(ErrorCode::InvalidGrid,
@@ -39,7 +40,7 @@ Result<OutputColour> output_colour(const CollapsePlan& plan, double white_lumina
         Matrix3::diagonal({1 / (white[0] * white_luminance), 1 / (white[1] * white_luminance),
                            1 / (white[2] * white_luminance)});
     const bool rgb = kind == SpaceKind::Rgb || kind == SpaceKind::Display;
-    return OutputColour{rgb ? share * xyz_from_rgb(plan.space) : share, false};
+    return OutputColour{rgb ? share * xyz_from_rgb(plan.space) : share, false, white};
 }
 
 }  // namespace osio

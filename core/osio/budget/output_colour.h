@@ -13,6 +13,7 @@ struct OutputColour {
     /// a grey.
     Matrix3 share_from_output;
     bool achromatic = false;  ///< one output: greys, whose errors in X, Y and Z are the same share
+    Vector3 white{};          ///< X, Y, Z of the white, Y = 1; of greys none
 };
 
 /// The colours of a plan's sums, before a curve. `white_luminance` is Y of the white, in the units of the
