@@ -38,7 +38,7 @@ bool any_negative(std::span<const BandView> bands, std::size_t pixel) {
 }  // namespace
 
 StoredCounts& StoredCounts::operator+=(const StoredCounts& other) {
-    zeroed += other.zeroed;
+    changed += other.changed;
     negative += other.negative;
     clamped += other.clamped;
     return *this;
@@ -47,7 +47,8 @@ StoredCounts& StoredCounts::operator+=(const StoredCounts& other) {
 BlockJudge::BlockJudge(const Subject& subject, const Candidate& candidate)
     : m_subject(subject), m_candidate(candidate), m_original(subject.weights.rows()),
       m_reduced(subject.weights.rows()), m_samples(candidate.matrix.rows()),
-      m_stored(candidate.matrix.rows()), m_differences(subject.demands.size()) {}
+      m_stored(candidate.matrix.rows()), m_differences(subject.demands.size()),
+      m_non_negative(candidate.metric), m_pixel(candidate.matrix.rows()) {}
 
 void BlockJudge::judge(const PlanarBlock& block) {
     const std::size_t pixels =
@@ -90,9 +91,12 @@ void BlockJudge::keep_non_negative(std::size_t first, std::size_t count, std::sp
             m_counts.negative += static_cast<std::uint64_t>(below);
             continue;
         }
-        m_counts.zeroed += static_cast<std::uint64_t>(below);
-        for (std::vector<float>& plane : m_samples)
-            plane[first + i] = plane[first + i] < 0 ? 0.0F : plane[first + i];
+        ++m_counts.changed;
+        for (std::size_t band = 0; band < m_pixel.size(); ++band)
+            m_pixel[band] = static_cast<double>(m_samples[band][first + i]);
+        m_non_negative.project(m_pixel);
+        for (std::size_t band = 0; band < m_pixel.size(); ++band)
+            m_samples[band][first + i] = static_cast<float>(m_pixel[band]);
     }
 }
 

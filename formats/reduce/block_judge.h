@@ -3,6 +3,8 @@
 
 #include <formats/reduce/candidate.h>
 
+#include <osio/reduce/non_negative.h>
+
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -11,7 +13,7 @@ namespace osio::reduce {
 
 /// What is stored that is not the sum of the fit.
 struct StoredCounts {
-    std::uint64_t zeroed = 0;    ///< samples below zero of pixels that have none in the original
+    std::uint64_t changed = 0;   ///< pixels whose fit is below zero somewhere and whose original is not
     std::uint64_t negative = 0;  ///< samples below zero that stay so, because the original has some there
     std::uint64_t clamped = 0;   ///< beyond +-65504 in a half
 
@@ -50,6 +52,8 @@ class BlockJudge {
     std::vector<std::vector<float>> m_samples;  ///< a plane a band, before they are rounded
     std::vector<std::vector<std::byte>> m_stored;
     std::vector<std::vector<double>> m_differences;
+    NonNegative m_non_negative;
+    std::vector<double> m_pixel;
     StoredCounts m_counts;
 };
 

@@ -82,7 +82,7 @@ Result<Candidate> describe(const Subject& subject, std::vector<image::Channel> c
 
 }  // namespace
 
-Result<Candidate> bin_candidate(const Subject& subject, std::vector<double> edges_nm, WeightMatrix matrix,
+Result<Candidate> bin_candidate(const Subject& subject, const BinFit& fit, std::vector<double> edges_nm,
                                 double fidelity, SampleType type, const TextLoader& load_text) {
     const SpectralSet& set = subject.job().set();
     std::vector<image::Channel> channels;
@@ -100,8 +100,10 @@ Result<Candidate> bin_candidate(const Subject& subject, std::vector<double> edge
     set_text(osio::attribute::kBasis, std::string(basis_name(Basis::Bins)), header);
     set_text(osio::attribute::kBinEdges, join(edges, ";"), header);
     Candidate out;
+    const WeightMatrix weights = fit.weights(edges_nm);
+    out.matrix = fit.fit(edges_nm, weights, fidelity, fit.bands());
+    out.metric = fit.metric(weights, fidelity);
     out.edges_nm = std::move(edges_nm);
-    out.matrix = std::move(matrix);
     out.type = type;
     out.fidelity = fidelity;
     return describe(subject, std::move(channels), std::move(header), std::move(out), load_text);
@@ -117,6 +119,7 @@ Result<Candidate> whole_candidate(const Subject& subject, SampleType type, const
         channels.push_back({names[job.plan.columns[column].channel], type, false});
         out.matrix.at(column, column) = 1;
     }
+    out.metric = out.matrix;
     Imf::Header header = header_of(subject);
     set_text(osio::attribute::kBasis, std::string(basis_name(job.plan.basis.basis)), header);
     out.type = type;

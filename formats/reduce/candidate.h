@@ -4,6 +4,8 @@
 #include <formats/image/spectral_image.h>
 #include <formats/reduce/subject.h>
 
+#include <osio/reduce/bin_fit.h>
+
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@ namespace osio::reduce {
 struct Candidate {
     std::vector<double> edges_nm;  ///< of bins; none: all bands as they are
     WeightMatrix matrix;           ///< bands x the original's columns
+    WeightMatrix metric;           ///< of the fit, bands x bands
     SampleType type = SampleType::Half;
     double fidelity = 0;
     image::Part part;  ///< channels (bands in the order of the matrix, then alpha) and attributes
@@ -21,9 +24,9 @@ struct Candidate {
     WeightMatrix weights;  ///< of all plans, 3 rows each, by the matrix's rows
 };
 
-/// Bins with these edges. The refusals of make_plan().
-[[nodiscard]] Result<Candidate> bin_candidate(const Subject& subject, std::vector<double> edges_nm,
-                                              WeightMatrix matrix, double fidelity, SampleType type,
+/// Bins with these edges, as they are fitted. The refusals of make_plan().
+[[nodiscard]] Result<Candidate> bin_candidate(const Subject& subject, const BinFit& fit,
+                                              std::vector<double> edges_nm, double fidelity, SampleType type,
                                               const TextLoader& load_text);
 
 /// All bands as they are, but for their type.

@@ -105,7 +105,7 @@ void add_pass(const PassResult& pass, std::uint64_t pixels, Reduction& out) {
         out.demands[d].largest_at = found.largest_at;
         out.demands[d].undefined = found.undefined;
     }
-    out.zeroed_samples = pass.counts.zeroed;
+    out.changed_pixels = pass.counts.changed;
     out.negative_samples = pass.counts.negative;
     out.clamped_samples = pass.counts.clamped;
 }

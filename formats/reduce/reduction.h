@@ -69,7 +69,7 @@ struct Reduction {
 
     std::uint64_t pixels = 0;
     std::vector<DemandResult> demands;
-    std::uint64_t zeroed_samples = 0;  ///< would be below zero where no sample of the original's pixel is
+    std::uint64_t changed_pixels = 0;  ///< would be below zero where no sample of the original's pixel is
     std::uint64_t negative_samples =
         0;                              ///< stored, where some sample of the original's pixel is negative too
     std::uint64_t clamped_samples = 0;  ///< beyond +-65504 in a half

@@ -46,7 +46,7 @@ Json json_of(const Reduction& reduction) {
             {"basis", reduction.basis},
             {"samples", reduction.samples},
             {"fidelity", reduction.fidelity},
-            {"zeroed_samples", reduction.zeroed_samples},
+            {"changed_pixels", reduction.changed_pixels},
             {"negative_samples", reduction.negative_samples},
             {"clamped_samples", reduction.clamped_samples},
             {"sampled_pixels", reduction.sampled_pixels},
@@ -82,7 +82,7 @@ std::size_t most_reduction_bytes(const Reduction& reduction) {
     constexpr double kLong = -2.2250738585072014e-308;
     constexpr auto kMany = std::numeric_limits<std::uint64_t>::max();
     Reduction longest = reduction;
-    longest.pixels = longest.zeroed_samples = longest.negative_samples = longest.clamped_samples = kMany;
+    longest.pixels = longest.changed_pixels = longest.negative_samples = longest.clamped_samples = kMany;
     for (DemandResult& demand : longest.demands) {
         demand.largest = demand.mean = kLong;
         demand.largest_at = {std::numeric_limits<int>::min(), std::numeric_limits<int>::min()};

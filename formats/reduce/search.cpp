@@ -67,10 +67,7 @@ class Finder {
     }
 
     [[nodiscard]] Result<Candidate> candidate(std::size_t count, double fidelity, SampleType type) {
-        const std::vector<double>& where = edges(count);
-        return bin_candidate(m_subject, where,
-                             m_fit.fit(where, m_fit.weights(where), fidelity, m_fit.bands()), fidelity, type,
-                             m_load_text);
+        return bin_candidate(m_subject, m_fit, edges(count), fidelity, type, m_load_text);
     }
 
     [[nodiscard]] Result<bool> do_hold(std::size_t count, SampleType type) {

@@ -70,8 +70,10 @@ std::string reduce_text(const reduce::Outcome& outcome, double seconds) {
     if (!reduction.edges_nm.empty())
         out += fmt::format("spectra of sampled pixels are off by {:.2g} (RMS), {:.2g} at most\n",
                            reduction.spectrum_rms, reduction.spectrum_largest);
-    if (reduction.zeroed_samples > 0)
-        out += fmt::format("{} samples would be below zero and are zero\n", reduction.zeroed_samples);
+    if (reduction.changed_pixels > 0)
+        out += fmt::format(
+            "{} pixels would be below zero in some band: the nearest samples that are not are stored\n",
+            reduction.changed_pixels);
     if (reduction.negative_samples > 0)
         out += fmt::format("{} samples are below zero, in pixels where the original has some\n",
                            reduction.negative_samples);

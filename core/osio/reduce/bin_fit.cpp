@@ -139,17 +139,24 @@ WeightMatrix BinFit::weights(std::span<const double> edges_nm) const {
     return out;
 }
 
+WeightMatrix BinFit::metric(const WeightMatrix& weights, double fidelity) const {
+    const WeightMatrix rows = scaled(weights);
+    WeightMatrix out(rows.bands(), rows.bands());
+    for (std::size_t i = 0; i < rows.bands(); ++i) {
+        for (std::size_t row = 0; row < rows.rows(); ++row)
+            add_row(rows, row, rows.at(row, i), out, i);
+        out.at(i, i) += fidelity * fidelity;
+    }
+    return out;
+}
+
 WeightMatrix BinFit::fit(std::span<const double> edges_nm, const WeightMatrix& weights, double fidelity,
                          const FitTargets& targets) const {
     const WeightMatrix rows = scaled(weights);
     const std::size_t bins = rows.bands(), count = targets.demanded.bands();
     const double pull = fidelity * fidelity;
-    WeightMatrix normal(bins, bins), out(bins, count);
+    WeightMatrix normal = metric(weights, fidelity), out(bins, count);
     for (std::size_t i = 0; i < bins; ++i) {
-        for (std::size_t j = 0; j < bins; ++j)
-            for (std::size_t row = 0; row < rows.rows(); ++row)
-                normal.at(i, j) += rows.at(row, i) * rows.at(row, j);
-        normal.at(i, i) += pull;
         for (std::size_t row = 0; row < rows.rows(); ++row)
             add_row(targets.demanded, row, rows.at(row, i), out, i);
         const double factor = pull / (edges_nm[i + 1] - edges_nm[i]);

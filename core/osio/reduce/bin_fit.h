@@ -55,6 +55,9 @@ class BinFit {
     [[nodiscard]] WeightMatrix fit(std::span<const double> edges_nm, const WeightMatrix& weights,
                                    double fidelity, const FitTargets& targets) const;
 
+    /// V'J'JV + fidelity^2 I: how far samples are from the minimum, as a metric.
+    [[nodiscard]] WeightMatrix metric(const WeightMatrix& weights, double fidelity) const;
+
     /// How much the demands ask of each nanometre, 360-830 nm, relative: the mean of |J W| over the rows.
     [[nodiscard]] const NmSamples& importance() const { return m_importance; }
 

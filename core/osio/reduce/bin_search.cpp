@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <osio/colour/difference.h>
 #include <osio/reduce/bin_search.h>
+#include <osio/reduce/non_negative.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace osio {
@@ -54,34 +56,61 @@ class BinSearch::Objective {
 
     /// The largest CIEDE2000 of each spectrum.
     [[nodiscard]] std::vector<double> differences(std::span<const double> edges_nm) const {
-        const auto& demands = m_search.m_demands;
-        const WeightMatrix weights = m_search.m_fit.weights(edges_nm);
-        WeightMatrix samples = m_search.m_fit.fit(edges_nm, weights, m_fidelity, m_targets);
-        std::vector<double> out(samples.bands());
-        for (std::size_t i = 0; i < out.size(); ++i) {
-            if (m_non_negative[i])
-                for (std::size_t bin = 0; bin < samples.rows(); ++bin)
-                    samples.at(bin, i) = std::max(samples.at(bin, i), 0.0);
-            for (std::size_t d = 0; d < demands.size(); ++d) {
-                Vector3 xyz{};
-                for (std::size_t c = 0; c < 3; ++c)
-                    for (std::size_t bin = 0; bin < samples.rows(); ++bin)
-                        xyz[c] += weights.at(3 * d + c, bin) * samples.at(bin, i);
-                out[i] = std::max(
-                    out[i], delta_e_2000(m_wanted[i * demands.size() + d], lab_of(xyz, demands[d].white)));
-            }
-        }
+        Made made(*this, edges_nm);
+        std::vector<double> out;
+        for (std::size_t i = 0; i < m_non_negative.size(); ++i)
+            out.push_back(made.difference(i));
         return out;
     }
 
-    [[nodiscard]] double operator()(std::span<const double> edges_nm) const {
+    /// The sum of their eighth powers, or what it has come to when it exceeds a limit.
+    [[nodiscard]] double cost(std::span<const double> edges_nm, double limit) const {
+        Made made(*this, edges_nm);
         double sum = 0;
-        for (const double delta : differences(edges_nm))
-            sum += std::pow(delta, 8);
+        for (std::size_t i = 0; i < m_non_negative.size() && sum <= limit; ++i)
+            sum += std::pow(made.difference(i), 8);
         return sum;
     }
 
   private:
+    /// The samples that edges give.
+    class Made {
+      public:
+        Made(const Objective& objective, std::span<const double> edges_nm)
+            : m_objective(objective), m_weights(objective.m_search.m_fit.weights(edges_nm)),
+              m_samples(objective.m_search.m_fit.fit(edges_nm, m_weights, objective.m_fidelity,
+                                                     objective.m_targets)),
+              m_metric(objective.m_search.m_fit.metric(m_weights, objective.m_fidelity)), m_project(m_metric),
+              m_pixel(m_samples.rows()) {}
+
+        Made(const Made&) = delete;
+        Made& operator=(const Made&) = delete;
+
+        [[nodiscard]] double difference(std::size_t i) {
+            const auto& demands = m_objective.m_search.m_demands;
+            for (std::size_t bin = 0; bin < m_pixel.size(); ++bin)
+                m_pixel[bin] = m_samples.at(bin, i);
+            if (m_objective.m_non_negative[i])
+                m_project.project(m_pixel);
+            double out = 0;
+            for (std::size_t d = 0; d < demands.size(); ++d) {
+                Vector3 xyz{};
+                for (std::size_t c = 0; c < 3; ++c)
+                    for (std::size_t bin = 0; bin < m_pixel.size(); ++bin)
+                        xyz[c] += m_weights.at(3 * d + c, bin) * m_pixel[bin];
+                out = std::max(out, delta_e_2000(m_objective.m_wanted[i * demands.size() + d],
+                                                 lab_of(xyz, demands[d].white)));
+            }
+            return out;
+        }
+
+      private:
+        const Objective& m_objective;
+        WeightMatrix m_weights, m_samples, m_metric;
+        NonNegative m_project;
+        std::vector<double> m_pixel;
+    };
+
     const BinSearch& m_search;
     double m_fidelity;
     FitTargets m_targets;
@@ -113,9 +142,12 @@ std::vector<double> even_edges(const BinFit& fit, std::size_t count) {
     return out;
 }
 
-template <class Cost>
-void descend(const Cost& cost, std::vector<double>& edges) {
-    double best = cost(edges);
+/// A gain that is too small to matter would only keep a descent going.
+constexpr double kGain = 0.98;
+
+template <class Objective>
+void descend(const Objective& objective, std::vector<double>& edges) {
+    double best = objective.cost(edges, std::numeric_limits<double>::infinity());
     for (const double step : {32.0, 16.0, 8.0, 4.0, 2.0, 1.0})
         for (bool moved = true; moved;) {
             moved = false;
@@ -126,8 +158,7 @@ void descend(const Cost& cost, std::vector<double>& edges) {
                     if (after - edges[i - 1] < kNarrowestNm || edges[i + 1] - after < kNarrowestNm)
                         continue;
                     edges[i] = after;
-                    // A gain that is too small to matter would only keep the descent going.
-                    if (const double now = cost(edges); now < 0.98 * best) {
+                    if (const double now = objective.cost(edges, kGain * best); now < kGain * best) {
                         best = now;
                         moved = true;
                     } else {
@@ -160,6 +191,10 @@ std::vector<double> BinSearch::place(std::size_t count, double fidelity, const S
         for (std::size_t i = 0; i < worst; ++i)
             if (std::find(seen.begin(), seen.end(), order[i]) == seen.end())
                 seen.push_back(order[i]);
+        // The worst first: a move that is none is known sooner.
+        std::sort(seen.begin(), seen.end(), [&](std::size_t a, std::size_t b) {
+            return differences[a] != differences[b] ? differences[a] > differences[b] : a < b;
+        });
         descend(Objective(*this, fidelity, sample, seen), edges);
     }
     return edges;
