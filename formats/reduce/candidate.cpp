@@ -23,8 +23,8 @@ std::vector<std::string> attributes_of_bands(const Imf::Header& header) {
         const std::string name = a.name();
         const bool counts = name.starts_with(envi::kAttributePrefix) &&
                             envi::counts_bands(name.substr(envi::kAttributePrefix.size()));
-        if (counts || name == osio::attribute::kBasis || name == osio::attribute::kBinEdges ||
-            name == osio::attribute::kFwhm || parse_channel_name(name, DecimalMark::Comma))
+        if (counts || name == attribute::kBasis || name == attribute::kBinEdges || name == attribute::kFwhm ||
+            parse_channel_name(name, DecimalMark::Comma))
             out.push_back(name);
     }
     return out;
@@ -34,7 +34,7 @@ std::vector<std::string> attributes_of_bands(const Imf::Header& header) {
 Imf::Header header_of(const Subject& subject) {
     Imf::Header out = convert::attributes_of(subject.job().part());
     out.erase(image::attribute::kPreviewRecipe);
-    out.erase(attribute::kReduction);
+    out.erase(std::string(attribute::kReduction));
     return out;
 }
 
@@ -97,8 +97,8 @@ Result<Candidate> bin_candidate(const Subject& subject, const BinFit& fit, std::
     Imf::Header header = header_of(subject);
     for (const std::string& name : attributes_of_bands(header))
         header.erase(name);
-    set_text(osio::attribute::kBasis, std::string(basis_name(Basis::Bins)), header);
-    set_text(osio::attribute::kBinEdges, join(edges, ";"), header);
+    set_text(attribute::kBasis, std::string(basis_name(Basis::Bins)), header);
+    set_text(attribute::kBinEdges, join(edges, ";"), header);
     Candidate out;
     const WeightMatrix weights = fit.weights(edges_nm);
     out.matrix = fit.fit(edges_nm, weights, fidelity, fit.bands());
@@ -114,14 +114,18 @@ Result<Candidate> whole_candidate(const Subject& subject, SampleType type, const
     const std::vector<std::string> names = convert::derived_names(job.part());
     std::vector<image::Channel> channels;
     Candidate out;
-    out.matrix = WeightMatrix(subject.columns(), subject.columns());
-    for (std::size_t column = 0; column < subject.columns(); ++column) {
-        channels.push_back({names[job.plan.columns[column].channel], type, false});
-        out.matrix.at(column, column) = 1;
+    std::vector<std::size_t> kept;  // the rest has no colour for anyone here
+    for (std::size_t column = 0; column < subject.columns(); ++column)
+        if (subject.weights.needs(column))
+            kept.push_back(column);
+    out.matrix = WeightMatrix(kept.size(), subject.columns());
+    out.metric = WeightMatrix(kept.size(), kept.size());
+    for (std::size_t row = 0; row < kept.size(); ++row) {
+        channels.push_back({names[job.plan.columns[kept[row]].channel], type, false});
+        out.matrix.at(row, kept[row]) = out.metric.at(row, row) = 1;
     }
-    out.metric = out.matrix;
     Imf::Header header = header_of(subject);
-    set_text(osio::attribute::kBasis, std::string(basis_name(job.plan.basis.basis)), header);
+    set_text(attribute::kBasis, std::string(basis_name(job.plan.basis.basis)), header);
     out.type = type;
     return describe(subject, std::move(channels), std::move(header), std::move(out), load_text);
 }
@@ -146,6 +150,10 @@ std::vector<std::string> losses(const Subject& subject, const Candidate& candida
             out.push_back("set " + set.name());
     if (const std::size_t others = job.file->parts().size() - 1; others > 0)
         out.push_back(std::to_string(others) + " other part" + (others > 1 ? "s" : ""));
+    if (const std::size_t kept = candidate.matrix.rows();
+        candidate.edges_nm.empty() && kept < subject.columns())
+        out.push_back(std::to_string(subject.columns() - kept) +
+                      " bands that no light and observer here sees");
     if (!candidate.edges_nm.empty())
         if (const auto names = attributes_of_bands(part.header); !names.empty())
             out.push_back((names.size() > 1 ? "attributes " : "attribute ") + convert::names_text(names) +

@@ -29,7 +29,7 @@ struct Candidate {
                                               std::vector<double> edges_nm, double fidelity, SampleType type,
                                               const TextLoader& load_text);
 
-/// All bands as they are, but for their type.
+/// All bands that some demand needs as they are, but for their type.
 [[nodiscard]] Result<Candidate> whole_candidate(const Subject& subject, SampleType type,
                                                 const TextLoader& load_text);
 

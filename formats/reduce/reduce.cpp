@@ -7,6 +7,7 @@
 #include <formats/reduce/write_pass.h>
 
 #include <osio/base/text.h>
+#include <osio/layout/spectral_metadata.h>
 
 #include <algorithm>
 #include <array>
@@ -19,21 +20,31 @@ namespace {
 /// What decodes to the samples that were judged.
 constexpr std::array<std::string_view, 5> kLossless{"none", "rle", "zips", "zip", "piz"};
 
-/// Of half samples in few bands none is read faster than any other: docs/design/0016-reduce.md.
-constexpr std::string_view kFastest = "none";
+/// Samples as they are are read fastest, and are taken where they make a file this many times smaller than the
+/// original's; else zip, the next: docs/design/0016-reduce.md.
+constexpr std::uint64_t kPlainShare = 8;
 
 constexpr int kMostPasses = 16;
 
-Result<Imf::Compression> compression_of(const Request& request) {
-    const std::string name =
-        to_lower(request.compression.empty() ? std::string(kFastest) : request.compression);
-    OSIO_TRY(const Imf::Compression out, exr::find_compression(name));
-    if (std::find(kLossless.begin(), kLossless.end(), name) == kLossless.end())
+Result<void> check_compression(const std::string& name) {
+    if (name.empty())
+        return {};
+    OSIO_TRY([[maybe_unused]] const Imf::Compression known, exr::find_compression(name));
+    if (std::find(kLossless.begin(), kLossless.end(), to_lower(name)) == kLossless.end())
         return fail(ErrorCode::Unsupported,
                     "compression " + name +
                         " changes samples after they were verified; expected none, rle, zips, "
                         "zip or piz");
-    return out;
+    return {};
+}
+
+/// The compression that was asked for, or the one that is read fastest.
+std::string compression_of(const Request& request, const Reduction& reduction, const Candidate& candidate,
+                           std::uint64_t pixels) {
+    if (!request.compression.empty())
+        return to_lower(request.compression);
+    const std::uint64_t plain = pixels * candidate.matrix.rows() * sample_bytes(candidate.type);
+    return plain * kPlainShare <= reduction.source_bytes ? "none" : "zip";
 }
 
 std::uint64_t size_of_file(const std::string& path) {
@@ -131,9 +142,11 @@ std::vector<std::string> Reduction::not_for() const {
 
 Result<Outcome> reduce(const Request& request, const TextLoader& load_text, Runner& runner,
                        const Progress& progress) {
-    OSIO_TRY(const Imf::Compression compression, compression_of(request));
-    OSIO_TRY(const Subject subject, open_subject(request, load_text, runner, progress));
+    OSIO_CHECK_OK(check_compression(request.compression));
+    OSIO_TRY(Subject subject, open_subject(request, load_text, runner, progress));
     const Subject others = other_demands(subject, load_text);
+    for (const Demand& other : others.demands)
+        subject.beside.push_back(other.plan);
     const BinFit fit(subject.demands);
     OSIO_TRY(SpectrumSample sample, sample_image(subject, runner, progress));
     Outcome out;
@@ -143,6 +156,7 @@ Result<Outcome> reduce(const Request& request, const TextLoader& load_text, Runn
     const image::Window& window = subject.job().part().data_window;
     out.width = window.width();
     out.height = window.height();
+    const auto pixels = static_cast<std::uint64_t>(out.width) * static_cast<std::uint64_t>(out.height);
     while (out.passes < kMostPasses) {
         OSIO_TRY(std::optional<Candidate> candidate,
                  find_candidate(subject, fit, sample, request.tolerance, load_text));
@@ -150,8 +164,9 @@ Result<Outcome> reduce(const Request& request, const TextLoader& load_text, Runn
             return not_reached(request, subject, "");
         OSIO_CHECK_OK(describe(subject, others, *candidate, sample, load_text, out.reduction));
         Imf::Header header = candidate->part.header;
-        header.compression() = compression;
-        exr::reserve_text(attribute::kReduction, most_reduction_bytes(out.reduction), header);
+        out.reduction.compression = compression_of(request, out.reduction, *candidate, pixels);
+        OSIO_TRY(header.compression(), exr::find_compression(out.reduction.compression));
+        exr::reserve_text(std::string(attribute::kReduction), most_reduction_bytes(out.reduction), header);
         std::vector<exr::OutputChannel> channels;
         for (const image::Channel& channel : candidate->part.channels)
             channels.push_back({channel.name, channel.type});
@@ -160,9 +175,8 @@ Result<Outcome> reduce(const Request& request, const TextLoader& load_text, Runn
                  write_pass(subject, *candidate, request.tolerance, *writer, runner, progress));
         ++out.passes;
         if (pass.within(request.tolerance)) {
-            add_pass(pass, static_cast<std::uint64_t>(out.width) * static_cast<std::uint64_t>(out.height),
-                     out.reduction);
-            writer->set_text(0, attribute::kReduction, reduction_json(out.reduction, true));
+            add_pass(pass, pixels, out.reduction);
+            writer->set_text(0, std::string(attribute::kReduction), reduction_json(out.reduction, true));
             OSIO_CHECK_OK(writer->finish(request.durability));
             out.bytes = size_of_file(request.output);
             return out;

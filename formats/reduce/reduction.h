@@ -17,10 +17,6 @@
 /// The smallest spectral file that a scene requires under some lights and observers.
 namespace osio::reduce {
 
-namespace attribute {
-inline constexpr const char* kReduction = "spectral:reduction";  ///< reduction_json() in one line
-}
-
 /// What is to be reduced, for whom, and how far it may be off.
 struct Request {
     std::string input;
@@ -29,7 +25,7 @@ struct Request {
     std::vector<std::string> lights;                ///< names or tables; none for radiance
     std::vector<std::string> observers{"cie1931"};  ///< colorimetric ones
     double tolerance = 0;                           ///< CIEDE2000 that no pixel may exceed
-    std::string compression;                        ///< empty: none
+    std::string compression;                        ///< empty: the one that is read fastest
     files::Durability durability = files::Durability::Handed;
 };
 
@@ -65,6 +61,7 @@ struct Reduction {
     std::vector<double> edges_nm;        ///< of their bins; none where all bands stay
     std::string basis;                   ///< what `spectral:basis` says
     std::string samples;                 ///< half, float
+    std::string compression;             ///< none, zip, ...
     double fidelity = 0;                 ///< of BinFit
 
     std::uint64_t pixels = 0;

@@ -45,6 +45,7 @@ Json json_of(const Reduction& reduction) {
             {"edges_nm", reduction.edges_nm},
             {"basis", reduction.basis},
             {"samples", reduction.samples},
+            {"compression", reduction.compression},
             {"fidelity", reduction.fidelity},
             {"changed_pixels", reduction.changed_pixels},
             {"negative_samples", reduction.negative_samples},

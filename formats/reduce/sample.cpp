@@ -31,7 +31,7 @@ struct SampleBlock {
 }  // namespace
 
 Result<SpectrumSample> sample_image(const Subject& subject, Runner& runner, const Progress& progress) {
-    OSIO_TRY(const auto source, image::open_source(subject.jobs, {}, image::Grain::Chunk));
+    OSIO_TRY(const auto source, subject.open_source(image::Grain::Chunk));
     const std::size_t blocks = std::min(kBlocks, source->block_count());
     std::vector<SpectrumSample> found(blocks, SpectrumSample(subject.columns()));
     std::vector<Result<void>> results(blocks);

@@ -40,9 +40,9 @@ class Finder {
         }
         const std::size_t whole = m_subject.columns() * sample_bytes(SampleType::Half);
         if (whole < bytes) {
-            OSIO_TRY(Candidate all, whole_candidate(m_subject, SampleType::Half, m_load_text));
-            if (holds(all))
-                best = std::move(all);
+            // Attributes that count bands can make a plan impossible where some bands are left out.
+            if (auto all = whole_candidate(m_subject, SampleType::Half, m_load_text); all && holds(*all))
+                best = std::move(*all);
         }
         return best;
     }

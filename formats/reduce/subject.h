@@ -19,12 +19,18 @@ struct Subject {
     WeightMatrix weights;  ///< of all demands, 3 rows each, by the original's columns
     double white_luminance = 1;
     std::string white_reason;
+    std::vector<CollapsePlan> beside;  ///< of other demands, whose columns are read too
 
     [[nodiscard]] const image::CollapseJob& job() const { return jobs.front(); }
 
     [[nodiscard]] std::size_t columns() const { return weights.bands(); }
 
     void add(image::CollapseJob job, double white_luminance);
+
+    /// The columns that any demand needs, or a plan beside them, then alpha.
+    [[nodiscard]] Result<std::unique_ptr<BlockSource>> open_source(image::Grain grain) const {
+        return image::open_source(jobs, beside, grain);
+    }
 };
 
 /// Opens the image and makes a job of each light and observer; the refusals of reduce() that need no pixel.

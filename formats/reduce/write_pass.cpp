@@ -118,7 +118,7 @@ bool PassResult::within(double tolerance) const {
 
 Result<PassResult> write_pass(const Subject& subject, const Candidate& candidate, double tolerance,
                               exr::ExrWriter& writer, Runner& runner, const Progress& progress) {
-    OSIO_TRY(const auto source, image::open_source(subject.jobs));
+    OSIO_TRY(const auto source, subject.open_source(image::Grain::Block));
     const image::Window& window = subject.job().part().data_window;
     PassResult out(subject);
     const auto start = [&] { return std::make_unique<Writing>(subject, candidate, tolerance, writer, out); };

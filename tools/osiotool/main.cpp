@@ -304,7 +304,9 @@ class CommandLine {
         add_words(*command, m_reduce.request, [](const std::string& key) {
             return holds({"wavelengths", "quantity", "part", "set", "basis", "white-luminance"}, key);
         });
-        command->add_option("--compression", m_reduce.compression, "one without loss; default none")
+        command
+            ->add_option("--compression", m_reduce.compression,
+                         "one without loss; default: the fastest to read")
             ->type_name("C");
         command->add_flag("--fsync", m_reduce.fsync, "done only when the storage has every byte");
         command->add_option("--threads", m_reduce.threads, "default: one a processor")->type_name("N");

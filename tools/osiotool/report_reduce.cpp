@@ -58,11 +58,12 @@ std::string reduce_text(const reduce::Outcome& outcome, double seconds) {
     const reduce::Reduction& reduction = outcome.reduction;
     std::string out = fmt::format("{}: {} of {} bands of set {}\n", outcome.output, bands_text(reduction),
                                   reduction.source_bands, reduction.set);
-    out += fmt::format(
-        "{:.2f} MB of {:.2f} MB: {:.1f} times smaller; {}x{} pixels, {} pass{}, {:.2f} s\n",
-        static_cast<double>(outcome.bytes) / kMega, static_cast<double>(reduction.source_bytes) / kMega,
-        static_cast<double>(reduction.source_bytes) / static_cast<double>(outcome.bytes), outcome.width,
-        outcome.height, outcome.passes, outcome.passes > 1 ? "es" : "", seconds);
+    out +=
+        fmt::format("{:.2f} MB ({}) of {:.2f} MB: {:.1f} times smaller; {}x{} pixels, {} pass{}, {:.2f} s\n",
+                    static_cast<double>(outcome.bytes) / kMega, reduction.compression,
+                    static_cast<double>(reduction.source_bytes) / kMega,
+                    static_cast<double>(reduction.source_bytes) / static_cast<double>(outcome.bytes),
+                    outcome.width, outcome.height, outcome.passes, outcome.passes > 1 ? "es" : "", seconds);
     out += fmt::format("every pixel within CIEDE2000 {} as stored; white: Y = {:.6g}, {}\n",
                        format_double(reduction.tolerance), reduction.white_luminance, reduction.white_reason);
     out += demands_table(reduction);
