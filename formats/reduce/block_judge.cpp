@@ -82,13 +82,16 @@ void BlockJudge::judge(const PlanarBlock& block) {
 
 void BlockJudge::keep_non_negative(std::size_t first, std::size_t count, std::span<const BandView> original) {
     for (std::size_t i = 0; i < count; ++i) {
-        const auto below =
-            std::count_if(m_samples.begin(), m_samples.end(),
-                          [&](const std::vector<float>& plane) { return plane[first + i] < 0; });
-        if (below == 0)
+        std::uint64_t below = 0;
+        bool defined = true;
+        for (const std::vector<float>& plane : m_samples) {
+            below += plane[first + i] < 0;
+            defined = defined && std::isfinite(plane[first + i]);
+        }
+        if (below == 0 || !defined)
             continue;
         if (any_negative(original, i)) {
-            m_counts.negative += static_cast<std::uint64_t>(below);
+            m_counts.negative += below;
             continue;
         }
         ++m_counts.changed;
@@ -110,7 +113,7 @@ void BlockJudge::store(std::size_t pixels) {
             continue;
         }
         for (std::size_t i = 0; i < pixels; ++i) {
-            const bool beyond = std::abs(from[i]) > kHalfMax;
+            const bool beyond = std::abs(from[i]) > kHalfMax && std::isfinite(from[i]);
             m_counts.clamped += beyond;
             const std::uint16_t half =
                 Imath::half(beyond ? std::copysign(kHalfMax, from[i]) : from[i]).bits();

@@ -33,7 +33,8 @@ Result<void> check_words(const Request& request) {
     return {};
 }
 
-Result<void> check_set(const image::CollapseJob& job) {
+/// `named`: the set is what was asked for, not what was left to us.
+Result<void> check_set(const image::CollapseJob& job, bool named) {
     const SpectralSet& set = job.set();
     const std::string& path = job.file->path();
     if (!set.reradiation.empty())
@@ -52,7 +53,7 @@ Result<void> check_set(const image::CollapseJob& job) {
             path);
     for (const SpectralSet& other : job.part().layout.sets)
         if (set.family == Family::S0 && other.root == set.root && &other != &set &&
-            other.family != Family::T && job.plan.request.set.empty())
+            other.family != Family::T && !named)
             return fail(ErrorCode::Unsupported,
                         "set " + set.name() + " comes with " + other.name() +
                             ", polarisation that would be lost; --set " + set.name() +
@@ -108,7 +109,7 @@ Result<Subject> open_subject(const Request& request, const TextLoader& load_text
             one.illuminant = light;
             one.observer = observer;
             OSIO_TRY(image::CollapseJob job, image::prepare_collapse(file, one, load_text));
-            OSIO_CHECK_OK(check_set(job));
+            OSIO_CHECK_OK(check_set(job, !request.words.set.empty()));
             OSIO_TRY(const image::WhiteLuminance white,
                      image::white_luminance_of(job, load_text, runner, progress));
             if (out.jobs.empty()) {

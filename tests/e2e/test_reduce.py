@@ -57,7 +57,7 @@ class Reduce(OsioCase):
             self.assertLessEqual(demand["delta_e_max"], report["max_delta_e"])
             if demand["light"]:
                 told = self.osiotool_json("difference", source, out, *words)
-                self.assertAlmostEqual(demand["delta_e_max"], told["max"], delta=1e-9)
+                self.assertAlmostEqual(demand["delta_e_max"], told["max"], delta=1e-6)
                 self.assertAlmostEqual(demand["delta_e_mean"], told["mean"], delta=1e-6)
                 found = self.differences(source, out, *words)
                 self.assertAlmostEqual(demand["delta_e_max"], found.max(), delta=1e-3)
@@ -98,7 +98,7 @@ class Reduce(OsioCase):
         told = self.osiotool_json("difference", "a.exr", "r.spexr", "--illuminant", "FL11")
         other = next(o for o in report["others"] if o["light"] == "FL11")
         self.assertGreater(told["max"], 0.5)
-        self.assertLessEqual(other["delta_e_max"], told["max"] + 1e-9)
+        self.assertLessEqual(other["delta_e_max"], told["max"] + 1e-6)
         text = self.osiotool("reduce", "a.exr", "r.spexr", "--lights", "D65", "--max-delta-e", "0.5").stderr
         self.assertRegex(text, r"must not be used under .*FL11")
 
@@ -187,13 +187,13 @@ class Reduce(OsioCase):
         random = np.random.default_rng(2)
         alpha = random.uniform(0, 1, SHAPE).astype(np.float32)
         self.write_exr("a.exr", dict(image, A=alpha, R=alpha, G=alpha, B=alpha, Z=alpha),
-                       attributes=[("owner", "somebody"), ("spectral:fwhm", "5")])
+                       attributes=[("studio", "somewhere"), ("spectral:fwhm", "5")])
         report = self.reduce("a.exr", *FOUR, "--max-delta-e", "0.5")
         self.assertTrue(np.array_equal(self.channels_of("r.spexr")["A"], alpha))
         self.assertEqual(len(self.channels_of("r.spexr")), report["bands"] + 1)
         self.assertRegex(" ".join(report["lost"]), "channels .*Z.*spectral:fwhm")
         spec, _ = self.read("r.spexr")
-        self.assertEqual(spec.getattribute("owner"), "somebody")
+        self.assertEqual(spec.getattribute("studio"), "somewhere")
         self.assertIsNone(spec.getattribute("spectral:fwhm"))
 
     def test_its_words_go_where_they_are_no_longer_true(self):
@@ -218,7 +218,7 @@ class Reduce(OsioCase):
         self.write_table("lamp.csv", "nm,power", "380,1", "500,3", "780,2")
         report = self.reduce("a.hdr", "--quantity", "reflectance", "--lights", "lamp.csv,D65", "--max-delta-e", "0.5")
         told = self.osiotool_json("difference", "a.exr", "r.spexr", "--illuminant", "lamp.csv")
-        self.assertAlmostEqual(report["demands"][0]["delta_e_max"], told["max"], delta=1e-9)
+        self.assertAlmostEqual(report["demands"][0]["delta_e_max"], told["max"], delta=1e-6)
 
     def test_refusals_leave_nothing(self):
         self.write_exr("t.exr", smooth(shape=(4, 6)))
