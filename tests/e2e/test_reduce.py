@@ -31,6 +31,10 @@ class Reduce(OsioCase):
     def reduce(self, source, *options, out="r.spexr"):
         return self.osiotool_json("reduce", source, out, "--quiet", *options)
 
+    def bytes_of(self, name):
+        with open(self.path(name), "rb") as file:
+            return file.read()
+
     def attribute(self, name="r.spexr"):
         spec, _ = self.read(name)
         return json.loads(spec.getattribute("spectral:reduction"))
@@ -117,7 +121,7 @@ class Reduce(OsioCase):
         words = ("reduce", "a.exr")
         for name, options in (("1.exr", ("--threads", "1")), ("2.exr", ("--threads", "3"))):
             self.osiotool(*words, name, *FOUR, "--max-delta-e", "0.3", "--quiet", *options)
-        one, two = (open(self.path(name), "rb").read() for name in ("1.exr", "2.exr"))
+        one, two = (self.bytes_of(name) for name in ("1.exr", "2.exr"))
         self.assertEqual(one, two)
         for compression in ("none", "rle", "zips", "zip", "piz"):
             report = self.reduce("a.exr", *FOUR, "--max-delta-e", "0.3", "--compression", compression)
@@ -229,7 +233,7 @@ class Reduce(OsioCase):
         self.write_exr("rgb.exr", {"R": np.zeros((4, 6)), "G": np.zeros((4, 6)), "B": np.zeros((4, 6))})
         half = ("--max-delta-e", "0.5")
         before = self.files()
-        original = open(self.path("t.exr"), "rb").read()
+        original = self.bytes_of("t.exr")
         for code, said, words in (
                 (2, "holds its light already", ("s.exr", "o.exr", "--lights", "D65", *half)),
                 (1, "expected --lights", ("t.exr", "o.exr", *half)),
@@ -250,22 +254,22 @@ class Reduce(OsioCase):
                 (3, "Nothing was written", ("t.exr", "o.exr", *FOUR, "--max-delta-e", "1e-9")),
                 (5, "", ("none.exr", "o.exr", "--lights", "A", *half))):
             result = self.osiotool("reduce", *words, code=code)
-            self.assertRegex(result.stderr, said)
+            self.assertRegex(result.stderr, said or "osiotool: ")
             self.assertEqual(self.files(), before, words)
-        self.assertEqual(open(self.path("t.exr"), "rb").read(), original)
+        self.assertEqual(self.bytes_of("t.exr"), original)
         self.osiotool("reduce", "polarised.exr", "o.exr", "--set", "S0", *half, "--quiet")
         self.assertIn("set S1", self.attribute("o.exr")["lost"])
 
     def test_a_failure_keeps_the_old_file(self):
         self.write_exr("a.exr", smooth())
         self.reduce("a.exr", *FOUR, "--max-delta-e", "0.5")
-        old = open(self.path("r.spexr"), "rb").read()
+        old = self.bytes_of("r.spexr")
         self.osiotool("reduce", "a.exr", "r.spexr", *FOUR, "--max-delta-e", "1e-9", code=3)
         with open(self.path("a.exr"), "r+b") as file:
             file.seek(os.path.getsize(self.path("a.exr")) // 2)
             file.write(b"\xff" * 20000)
         self.osiotool("reduce", "a.exr", "r.spexr", *FOUR, "--max-delta-e", "0.5", code=4)
-        self.assertEqual(open(self.path("r.spexr"), "rb").read(), old)
+        self.assertEqual(self.bytes_of("r.spexr"), old)
         self.assertEqual(self.files(), ["a.exr", "r.spexr"])
 
     def test_few_bands_as_halves_when_no_bins_do(self):
