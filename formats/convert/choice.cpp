@@ -117,6 +117,7 @@ Result<void> leave_out(const std::function<bool(double nm)>& keep, const std::st
             choice.lost.push_back("channel " + name + ", a preview of all bands");
         }
     choice.attributes.erase(image::attribute::kPreviewRecipe);
+    choice.attributes.erase(std::string(attribute::kReduction));
     std::erase_if(choice.channels, [&](std::size_t channel) { return left_out.contains(channel); });
     choice.spoken_of.insert(left_out.begin(), left_out.end());
     return {};

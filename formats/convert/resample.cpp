@@ -62,7 +62,8 @@ class Builder {
                                 envi::counts_bands(name.substr(envi::kAttributePrefix.size()));
             const auto band = parse_channel_name(name, DecimalMark::Comma);
             const bool of_changed = band && m_sets.contains({band->root, band->family});
-            if (of_changed || (!m_sets.empty() && (name == attribute::kFwhm || counts)))
+            if (of_changed ||
+                (!m_sets.empty() && (name == attribute::kFwhm || name == attribute::kReduction || counts)))
                 names.push_back(name);
         }
         for (const std::string& name : names)

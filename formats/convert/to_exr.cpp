@@ -174,6 +174,9 @@ Result<std::vector<PartPlan>> two_parts(const Choice& choice, const std::vector<
 Result<std::unique_ptr<Sink>> open_exr(const Request& request, const Choice& choice, Outcome& outcome) {
     const auto channels = stored_channels(request, choice, outcome);
     Imf::Header header = choice.attributes;
+    for (std::size_t c = 0; c < channels.size(); ++c)
+        if (channels[c].type != choice.part().channels[choice.channels[c]].type)
+            header.erase(std::string(attribute::kReduction));
     if (!request.compression.empty()) {
         OSIO_TRY(header.compression(), exr::find_compression(request.compression));
     }

@@ -146,6 +146,7 @@ class Reference(OsioCase):
         self.names(self.keys_of(self.osiotool_json("photometry", "--illuminant", "A")))
         self.names(self.keys_of(self.osiotool_json("plan", "shot.exr", "--to", "ACEScct", "--config", CONFIG,
                                                    "--illuminant", "A")))
+        self.names(self.keys_of(self.osiotool_json("reduce", "shot.exr", "r.exr", "--lights", "A", "--max-delta-e", "1")))
         self.names(self.keys_of(self.osiotool_json("list", "spaces", "--config", CONFIG)))
         self.names(self.keys_of(self.osiotool_json("bake", "relight", "m.clf", "--from", "A", "--to", "D65")))
         self.write_exr("radiance.exr", self.bands([450, 550, 650], prefix="S0"))
@@ -153,7 +154,7 @@ class Reference(OsioCase):
 
     def test_every_option(self):
         for command in ("info", "audit", "collapse", "plan", "convert", "verify", "difference", "photometry", "bake", "weights",
-                        "spectrum", "trade", "list"):
+                        "spectrum", "trade", "reduce", "list"):
             text = self.osiotool(command, "--help").stdout
             self.names(set(re.findall(r"^  --?([a-z][a-z-]*)", text, re.M)) - {"h"})
 

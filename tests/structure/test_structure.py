@@ -14,7 +14,7 @@ SOURCE = os.environ["OSIO_TEST_SOURCE"]
 # A file includes from its own floor or from one below.
 FLOORS = {
     "core/osio/base": 0, "core/osio/spectra": 1, "core/osio/data": 1, "core/osio/colour": 2,
-    "core/osio/layout": 3, "core/osio/collapse": 4, "core/osio/budget": 5, "formats": 6, "plugins": 7, "tools": 8,
+    "core/osio/layout": 3, "core/osio/collapse": 4, "core/osio/budget": 5, "core/osio/reduce": 5, "formats": 6, "plugins": 7, "tools": 8,
     "examples": 8,
 }
 
@@ -24,15 +24,15 @@ LIBRARIES = {
     r"tl/": r"core/osio/base/result\.h",
     r"hwy/": r"core/osio/budget/magnitude_simd\.cpp|core/osio/collapse/kernel_simd\.cpp|formats/exr/zip_simd\.cpp",
     r"libdeflate\.h": r"formats/(exr/zip_codec|files/zlib_stream|tiff/strip_packer)\.cpp",
-    r"OpenEXR/|Imath/": r"formats/(convert|envi|exr|image|stack|tiff|trade)/|plugins/|tools/host_module/|examples/",
+    r"OpenEXR/|Imath/": r"formats/(convert|envi|exr|image|reduce|stack|tiff|trade)/|plugins/|tools/host_module/|examples/",
     r"tiffio\.h": r"formats/tiff/",
     r"png\.h": r"formats/(files/png_output|stack/png_(pixels|writer))\.cpp",
     r"pugixml\.hpp": r"formats/tiff/(gdal_metadata|xmp_bands)\.cpp",
     r"OpenImageIO/": r"plugins/|tools/host_module/",
     r"OpenColorIO/": r"plugins/ocio/",
     r"fmt/": r"tools/osiotool/",
-    r"CLI/": r"tools/osiotool/main\.cpp",
-    r"nlohmann/": r"formats/image/certificate_json\.cpp|tools/osiotool/json_text\.h",
+    r"CLI/": r"tools/osiotool/(main\.cpp|request_options\.h)",
+    r"nlohmann/": r"formats/(image/certificate|reduce/reduction)_json\.cpp|tools/osiotool/json_text\.h",
 }
 
 OWN = re.compile(r"(osio|formats|plugins|tools)/")

@@ -147,6 +147,20 @@ struct TradeOptions {
     bool csv = false;
 };
 
+struct ReduceOptions {
+    std::string input;
+    std::string output;
+    RequestWords request;
+    double tolerance = 0;  ///< CIEDE2000
+    std::string lights;    ///< between commas; empty: none, for radiance
+    std::string observers = "cie1931";
+    std::string compression;  ///< empty: the fastest to read
+    bool fsync = false;
+    unsigned threads = 0;
+    bool quiet = false;
+    bool json = false;
+};
+
 struct ListOptions {
     std::string what;    ///< illuminants, observers, spaces, bases
     std::string config;  ///< of spaces: OCIO config to list too; empty: the environment's
@@ -165,6 +179,7 @@ struct ListOptions {
 [[nodiscard]] Result<ExitCode> run_weights(const WeightsOptions& options);
 [[nodiscard]] Result<ExitCode> run_spectrum(const SpectrumOptions& options);
 [[nodiscard]] Result<ExitCode> run_trade(const TradeOptions& options);
+[[nodiscard]] Result<ExitCode> run_reduce(const ReduceOptions& options);
 [[nodiscard]] Result<ExitCode> run_list(const ListOptions& options);
 [[nodiscard]] Result<ExitCode> run_doctor();
 

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The command line: words to options, options to a command, its result to an exit code. The only
-// file that includes CLI11.
+// The command line: words to options, options to a command, its result to an exit code.
 #include <tools/osiotool/commands.h>
+#include <tools/osiotool/request_options.h>
 
 #include <formats/exr/exr_file.h>
 
 #include <osio/base/text.h>
-#include <osio/collapse/request.h>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
@@ -19,44 +18,6 @@
 namespace osio::tool {
 
 namespace {
-
-using Keys = std::vector<std::string>;
-
-bool holds(const Keys& keys, const std::string& key) {
-    return std::find(keys.begin(), keys.end(), key) != keys.end();
-}
-
-/// An option for each word of a request that is wanted, so that the command line and queries never differ.
-template <class Wanted>
-void add_words(CLI::App& command, RequestWords& words, Wanted wanted) {
-    for (const RequestOption& option : request_options()) {
-        const std::string key(option.key);
-        if (!wanted(key))
-            continue;
-        if (option.value.empty()) {
-            command
-                .add_flag_callback(
-                    "--" + key, [&words, key] { words.emplace_back(key, "1"); }, std::string(option.help))
-                ->group("Colour");
-            continue;
-        }
-        command
-            .add_option_function<std::string>(
-                "--" + key, [&words, key](const std::string& value) { words.emplace_back(key, value); },
-                std::string(option.help))
-            ->type_name(std::string(option.value))
-            ->group("Colour");
-    }
-}
-
-void add_request_options(CLI::App& command, RequestWords& words, const Keys& without = {}) {
-    add_words(command, words, [&without](const std::string& key) { return !holds(without, key); });
-}
-
-/// The words that say what a file holds.
-void add_open_options(CLI::App& command, RequestWords& words) {
-    add_words(command, words, [](const std::string& key) { return holds({"wavelengths", "quantity"}, key); });
-}
 
 /// A command and what runs it.
 using Run = std::function<Result<ExitCode>()>;
@@ -82,6 +43,7 @@ class CommandLine {
         add_weights();
         add_spectrum();
         add_trade();
+        add_reduce();
         add_list();
         add("doctor", "tell whether OpenImageIO sees our plugins, and if not, why",
             [] { return run_doctor(); });
@@ -335,6 +297,31 @@ class CommandLine {
         command->add_flag("--csv", m_trade.csv, "as comma-separated values");
     }
 
+    void add_reduce() {
+        CLI::App* const command =
+            add("reduce", "the smallest spectral file that this scene requires under some lights",
+                [this] { return run_reduce(m_reduce); });
+        command->add_option("input", m_reduce.input, "spectral image")->required();
+        command->add_option("output", m_reduce.output, "OUT.exr or OUT.spexr")->required();
+        command->add_option("--max-delta-e", m_reduce.tolerance, "CIEDE2000 that no pixel exceeds")
+            ->required()
+            ->type_name("DE");
+        command->add_option("--lights", m_reduce.lights, "of reflectances: D65,A,FL11 or tables")
+            ->type_name("NAME,...");
+        command->add_option("--observers", m_reduce.observers, "default cie1931")->type_name("NAME,...");
+        add_words(*command, m_reduce.request, [](const std::string& key) {
+            return holds({"wavelengths", "quantity", "part", "set", "basis", "white-luminance"}, key);
+        });
+        command
+            ->add_option("--compression", m_reduce.compression,
+                         "one without loss; default: the fastest to read")
+            ->type_name("C");
+        command->add_flag("--fsync", m_reduce.fsync, "done only when the storage has every byte");
+        command->add_option("--threads", m_reduce.threads, "default: one a processor")->type_name("N");
+        command->add_flag("--quiet", m_reduce.quiet, "no summary, no progress");
+        command->add_flag("--json", m_reduce.json, "a report on stdout as JSON");
+    }
+
     void add_list() {
         CLI::App* const command = add("list", "names that options take", [this] { return run_list(m_list); });
         command->add_option("what", m_list.what, "illuminants, observers, spaces or bases")->required();
@@ -381,6 +368,7 @@ class CommandLine {
     WeightsOptions m_weights;
     SpectrumOptions m_spectrum;
     TradeOptions m_trade;
+    ReduceOptions m_reduce;
     ListOptions m_list;
 };
 

@@ -129,9 +129,10 @@ SpectralMetadata read_spectral_metadata(const ChannelLayout& layout, const TextA
 }
 
 bool describes_bands(std::string_view attribute_name) {
-    constexpr std::array<std::string_view, 6> kOwn{attribute::kLayoutVersion,    attribute::kEmissiveUnits,
-                                                   attribute::kHandedness,       attribute::kExposureValue,
-                                                   attribute::kLensTransmission, attribute::kCameraResponse};
+    constexpr std::array<std::string_view, 7> kOwn{attribute::kReduction,     attribute::kLayoutVersion,
+                                                   attribute::kEmissiveUnits, attribute::kHandedness,
+                                                   attribute::kExposureValue, attribute::kLensTransmission,
+                                                   attribute::kCameraResponse};
     return std::find(kOwn.begin(), kOwn.end(), attribute_name) != kOwn.end() ||
            parse_channel_name(attribute_name, DecimalMark::Comma).has_value();
 }

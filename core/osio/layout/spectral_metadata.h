@@ -25,6 +25,8 @@ inline constexpr std::string_view kBasis = "spectral:basis";  ///< a word of `li
 inline constexpr std::string_view kBinEdges =
     "spectral:binEdges";                                    ///< bands + 1 wavelengths in nm, between ';'
 inline constexpr std::string_view kFwhm = "spectral:fwhm";  ///< nm: one number, or `wavelength:width;...`
+inline constexpr std::string_view kReduction =
+    "spectral:reduction";  ///< JSON: what these very bands were verified for, see docs/cli.md
 }  // namespace attribute
 
 /// The layout's version that is written, and the unit of emitted light in its spelling. The unit is
