@@ -15,9 +15,10 @@ namespace osio::trade {
 
 /// What a choice reads.
 enum class Input {
-    Image,        ///< the file itself
-    HalfImage,    ///< the file converted to half bands
-    ColourImage,  ///< X, Y, Z of the file under CIE D65, as a pipeline without spectra has them
+    Image,         ///< the file itself
+    HalfImage,     ///< the file converted to half bands
+    ColourImage,   ///< X, Y, Z of the file under CIE D65, as a pipeline without spectra has them
+    ReducedImage,  ///< a file with fewer bands, made of the image for some lights
 };
 
 /// What sums the bands.
@@ -26,7 +27,8 @@ enum class Level {
     Exact,      ///< the product's vectors: the same bits
 };
 
-/// One way from the image to R, G, B of the job's space. Every one is linear in the image's channels.
+/// One way from the image to R, G, B of the job's space. Every one is linear in the image's channels, or in those of a
+/// reduced image.
 struct Choice {
     std::string name = {};
     std::string meaning = {};   ///< in words, for people
@@ -35,8 +37,11 @@ struct Choice {
     Matrix3 from_input = {};  ///< of a colour image: what its X, Y, Z are multiplied by
     Level level = Level::Exact;
     bool half_output = false;
-    int row_step = 1;       ///< only every so many rows, each shown as often
-    std::size_t bands = 0;  ///< that have weight
+    int row_step = 1;                       ///< only every so many rows, each shown as often
+    std::size_t bands = 0;                  ///< that have weight
+    std::string path = {};                  ///< of a reduced image
+    image::PlaneChannels file_planes = {};  ///< of its only part
+    WeightMatrix file_weights = {};         ///< 3 x those; `weights` has no planes then
 };
 
 /// The choices and what they have in common.

@@ -76,10 +76,8 @@ Result<void> add_spectra(const image::CollapseJob& job, std::size_t room, Runner
 
 }  // namespace
 
-Result<PageContent> make_page_content(const image::CollapseJob& job, double white_luminance,
-                                      std::size_t most_bytes, const TextLoader& load_text, Runner& runner,
-                                      const Progress& progress) {
-    OSIO_TRY(const Choices choices, make_choices(job, white_luminance, load_text));
+Result<PageContent> make_page_content(const image::CollapseJob& job, const Choices& choices,
+                                      std::size_t most_bytes, Runner& runner, const Progress& progress) {
     PageContent out;
     out.grid = picture_grid(job.part().data_window);
     const Progress of_views = progress_part(progress, 0, kViewsShare);

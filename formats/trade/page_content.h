@@ -26,17 +26,17 @@ struct ChoiceView {
 struct PageContent {
     image::BlockGrid grid;
     std::vector<std::string> pictures;  ///< PNG files, no two the same
-    std::vector<ChoiceView> choices;    ///< in the order of make_choices()
+    std::vector<ChoiceView> choices;    ///< in the order of the choices
     image::BlockGrid spectra_grid;      ///< its side is a multiple of the other's
     std::string spectra;                ///< codes_of_samples() of grid_spectra(), as a zlib stream
     double spectra_unit = 1;
 };
 
 /// Looks at every pixel once more. Squares are as small as kMostPicturePixels and `most_bytes` of all streams
-/// together, 1 MB or more, allow: pictures have at most two thirds of them, spectra the rest. `white_luminance` as of
-/// make_choices(). The refusals of reading and of png_of_srgb().
-[[nodiscard]] Result<PageContent> make_page_content(const image::CollapseJob& job, double white_luminance,
-                                                    std::size_t most_bytes, const TextLoader& load_text,
-                                                    Runner& runner, const Progress& progress);
+/// together, 1 MB or more, allow: pictures have at most two thirds of them, spectra the rest. The refusals of reading and
+/// of png_of_srgb().
+[[nodiscard]] Result<PageContent> make_page_content(const image::CollapseJob& job, const Choices& choices,
+                                                    std::size_t most_bytes, Runner& runner,
+                                                    const Progress& progress);
 
 }  // namespace osio::trade

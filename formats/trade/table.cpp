@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <formats/image/white_luminance.h>
 #include <formats/trade/progress_part.h>
 #include <formats/trade/table.h>
 
@@ -30,19 +29,17 @@ void sort_and_mark(std::vector<Offer>& offers) {
                                       [&offer](const Offer& other) { return beats(other, offer); });
 }
 
-Result<Table> make_table(const image::CollapseJob& job, int runs, MemoryMeter meter,
+Result<Table> make_table(const image::CollapseJob& job, const AllChoices& all, int runs, MemoryMeter meter,
                          const TextLoader& load_text, Runner& runner, const Progress& progress) {
     Table out;
-    OSIO_TRY(const image::WhiteLuminance white, image::white_luminance_of(job, load_text, runner, {}));
-    out.white_luminance = white.y;
-    out.white_reason = white.reason;
+    out.white_luminance = all.white.y;
+    out.white_reason = all.white.reason;
     out.recipe = recipe_text(job.plan.request);
     out.workers = runner.worker_count();
     out.runs = runs;
-    OSIO_TRY(Choices choices, make_choices(job, white.y, load_text));
     OSIO_TRY(const std::vector<Worth> worths,
-             worth_of(job, choices, runner, progress_part(progress, 0, kWorthShare)));
-    OSIO_TRY(const auto bench, Workbench::create(job, std::move(choices), std::move(meter)));
+             worth_of(job, all.choices, runner, progress_part(progress, 0, kWorthShare)));
+    OSIO_TRY(const auto bench, Workbench::create(job, all.choices, std::move(meter)));
     const std::vector<Choice>& list = bench->choices().list;
     const double each = (1 - kWorthShare) / static_cast<double>(list.size());
     for (std::size_t i = 0; i < list.size(); ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <formats/trade/all_choices.h>
 #include <formats/trade/cost.h>
 #include <formats/trade/worth.h>
 
@@ -33,8 +34,9 @@ struct Table {
 /// that noise hides (Seconds::same_as) counts as none.
 void sort_and_mark(std::vector<Offer>& offers);
 
-/// Measures every choice of the job's image. The refusals of make_choices() and of reading.
-[[nodiscard]] Result<Table> make_table(const image::CollapseJob& job, int runs, MemoryMeter meter,
-                                       const TextLoader& load_text, Runner& runner, const Progress& progress);
+/// Measures every choice of the job's image. The refusals of reading.
+[[nodiscard]] Result<Table> make_table(const image::CollapseJob& job, const AllChoices& all, int runs,
+                                       MemoryMeter meter, const TextLoader& load_text, Runner& runner,
+                                       const Progress& progress);
 
 }  // namespace osio::trade

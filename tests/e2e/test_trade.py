@@ -45,6 +45,25 @@ class Trade(OsioCase):
         self.assertEqual(choices["half output"]["bytes_read"], os.path.getsize(self.path("a.exr")))
         self.assertLess(choices["half bands"]["bytes_read"], choices["exact"]["bytes_read"])
 
+    def test_reduced_images_are_those_of_reduce(self):
+        self.colorchecker()
+        _, choices = self.trade("cc.exr", "--to", "lin_rec709", "--illuminant", "FL2")
+        self.osiotool("collapse", "cc.exr", "float.exr", "--to", "lin_rec709", "--illuminant", "FL2", "--quiet")
+        for tolerance in ("0.5", "2"):
+            report = self.osiotool_json("reduce", "cc.exr", "small.spexr", "--max-delta-e", tolerance,
+                                        "--lights", "FL2,D65,A,FL11,LED-B3")
+            self.osiotool("collapse", "small.spexr", "small.exr", "--to", "lin_rec709", "--illuminant", "FL2", "--quiet")
+            found = self.osiotool_json("difference", "float.exr", "small.exr")
+            choice = choices[f"reduced {tolerance}"]
+            self.assertEqual(choice["bands"], report["bands"])
+            self.assertLessEqual(choice["delta_e_max"], float(tolerance))
+            self.assertAlmostEqual(choice["delta_e_max"], found["max"], delta=1e-4)
+            self.assertAlmostEqual(choice["delta_e_mean"], found["mean"], delta=1e-4)
+            self.assertEqual(choice["bytes_read"], report["bytes"])
+        self.write_exr("f.exr", dict(self.bands(GRID, SHAPE), **{"T.420nm.500nm": np.full(SHAPE, 0.01)}))
+        _, choices = self.trade("f.exr", "--illuminant", "D65")
+        self.assertFalse([name for name in choices if name.startswith("reduced")])
+
     def test_levels_agree_to_the_bit(self):
         _, choices = self.trade("a.exr", "--to", "acescg", "--illuminant", "A")
         for name in ("reference", "exact"):

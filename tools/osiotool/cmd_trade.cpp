@@ -20,8 +20,8 @@ namespace osio::tool {
 
 namespace {
 
-/// The share of the work that measuring is, about, where a page is made too.
-constexpr double kTableShare = 0.85;
+/// The share of the work that making choices is, about, and, with measuring, where a page is made too.
+constexpr double kChoicesShare = 0.15, kTableShare = 0.85;
 
 /// The page's place, made sure of before minutes are spent on measuring.
 Result<std::optional<files::ReplacementFile>> open_page(const std::string& path) {
@@ -58,14 +58,18 @@ Result<ExitCode> run_trade(const TradeOptions& options) {
     std::string page;
     {
         ProgressBar bar(options.input, !options.quiet);
-        const double table_share = page_file ? kTableShare : 1;
-        OSIO_TRY(table, trade::make_table(job, options.runs, {restart_peak_memory, peak_memory_mb}, load_text,
-                                          runner, [&](double done) { return bar(table_share * done); }));
+        const auto part = [&bar](double from, double to) {
+            return [&bar, from, to](double done) { return bar(from + (to - from) * done); };
+        };
+        const double measured = page_file ? kTableShare : 1;
+        OSIO_TRY(const trade::AllChoices all,
+                 trade::make_all_choices(job, load_text, runner, part(0, kChoicesShare)));
+        OSIO_TRY(table, trade::make_table(job, all, options.runs, {restart_peak_memory, peak_memory_mb},
+                                          load_text, runner, part(kChoicesShare, measured)));
         if (page_file) {
-            OSIO_TRY(const trade::PageContent content,
-                     trade::make_page_content(
-                         job, table.white_luminance, kMostPageStreamBytes, load_text, runner,
-                         [&](double done) { return bar(table_share + (1 - table_share) * done); }));
+            OSIO_TRY(
+                const trade::PageContent content,
+                trade::make_page_content(job, all.choices, kMostPageStreamBytes, runner, part(measured, 1)));
             page = trade_page(job, table, content);
         }
     }
