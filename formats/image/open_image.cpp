@@ -4,6 +4,7 @@
 #include <formats/envi/envi_file.h>
 #include <formats/exr/exr_file.h>
 #include <formats/image/open_image.h>
+#include <formats/image/scene_basis.h>
 #include <formats/stack/png_file.h>
 #include <formats/stack/stack.h>
 #include <formats/tiff/tiff_file.h>
@@ -28,7 +29,9 @@ Result<std::shared_ptr<const SpectralImage>> open_image(const std::string& path,
     if (!file && file.error().code == ErrorCode::NotSpectral)
         return fail(ErrorCode::NotSpectral, file.error().what + ", no TIFF file, and there is no ENVI header",
                     path);
-    return file;
+    if (!file)
+        return tl::unexpected(std::move(file).error());
+    return expand_scene_basis(std::move(*file));
 }
 
 bool is_ours(const std::string& path) {

@@ -47,8 +47,9 @@ StoredCounts& StoredCounts::operator+=(const StoredCounts& other) {
 BlockJudge::BlockJudge(const Subject& subject, const Candidate& candidate)
     : m_subject(subject), m_candidate(candidate), m_original(subject.weights.rows()),
       m_reduced(subject.weights.rows()), m_samples(candidate.matrix.rows()),
-      m_stored(candidate.matrix.rows()), m_differences(subject.demands.size()),
-      m_non_negative(candidate.metric), m_pixel(candidate.matrix.rows()) {}
+      m_stored(candidate.matrix.rows()), m_expanded(candidate.expansion.rows()),
+      m_differences(subject.demands.size()), m_non_negative(candidate.metric),
+      m_pixel(candidate.matrix.rows()) {}
 
 void BlockJudge::judge(const PlanarBlock& block) {
     const std::size_t pixels =
@@ -61,14 +62,17 @@ void BlockJudge::judge(const PlanarBlock& block) {
         const auto bands = planes.first(m_subject.columns());
         collapse_run(bands, m_subject.weights, count, pointers_into(m_original, first));
         collapse_run(bands, m_candidate.matrix, count, pointers_into(m_samples, first));
-        keep_non_negative(first, count, bands);
+        if (m_expanded.empty())
+            keep_non_negative(first, count, bands);
     });
     store(pixels);
-    std::vector<BandView> stored;
+    m_bands.clear();
     for (const std::vector<std::byte>& plane : m_stored)
-        stored.push_back(
+        m_bands.push_back(
             {plane.data(), m_candidate.type, static_cast<std::ptrdiff_t>(sample_bytes(m_candidate.type))});
-    collapse_run(stored, m_candidate.weights, pixels, pointers_into(m_reduced, 0));
+    if (!m_expanded.empty())
+        expand(pixels);
+    collapse_run(m_bands, m_candidate.weights, pixels, pointers_into(m_reduced, 0));
     for (std::size_t d = 0; d < m_differences.size(); ++d) {
         std::array<const float*, 3> original{}, reduced{};
         for (std::size_t c = 0; c < 3; ++c) {
@@ -100,6 +104,18 @@ void BlockJudge::keep_non_negative(std::size_t first, std::size_t count, std::sp
         m_non_negative.project(m_pixel);
         for (std::size_t band = 0; band < m_pixel.size(); ++band)
             m_samples[band][first + i] = static_cast<float>(m_pixel[band]);
+    }
+}
+
+void BlockJudge::expand(std::size_t pixels) {
+    resize(m_expanded, pixels);
+    collapse_run(m_bands, m_candidate.expansion, pixels, pointers_into(m_expanded, 0));
+    m_bands.clear();
+    for (const std::vector<float>& plane : m_expanded) {
+        for (const float sample : plane)
+            m_counts.negative += sample < 0;
+        m_bands.push_back(
+            {reinterpret_cast<const std::byte*>(plane.data()), SampleType::Float, sizeof(float)});
     }
 }
 

@@ -13,9 +13,10 @@ namespace osio::reduce {
 
 /// What is stored that is not the sum of the fit.
 struct StoredCounts {
-    std::uint64_t changed = 0;   ///< pixels whose fit is below zero somewhere and whose original is not
-    std::uint64_t negative = 0;  ///< samples below zero that stay so, because the original has some there
-    std::uint64_t clamped = 0;   ///< beyond +-65504 in a half
+    std::uint64_t changed = 0;  ///< pixels whose fit is below zero somewhere and whose original is not
+    std::uint64_t negative =
+        0;  ///< samples below zero that a reader gets: of bins where the original has some
+    std::uint64_t clamped = 0;  ///< beyond +-65504 in a half
 
     StoredCounts& operator+=(const StoredCounts& other);
 };
@@ -33,6 +34,9 @@ class BlockJudge {
     /// The stored samples of a band, pixel after pixel.
     [[nodiscard]] const std::byte* stored(std::size_t band) const { return m_stored[band].data(); }
 
+    /// The samples of a band as a reader has them.
+    [[nodiscard]] const BandView& read(std::size_t band) const { return m_bands[band]; }
+
     /// CIEDE2000 of the block's pixels under a demand, as of colour_differences().
     [[nodiscard]] std::span<const double> differences(std::size_t demand) const {
         return m_differences[demand];
@@ -44,6 +48,7 @@ class BlockJudge {
   private:
     void keep_non_negative(std::size_t first, std::size_t count, std::span<const BandView> original);
     void store(std::size_t pixels);
+    void expand(std::size_t pixels);
 
     const Subject& m_subject;
     const Candidate& m_candidate;
@@ -51,6 +56,8 @@ class BlockJudge {
     std::vector<std::vector<float>> m_reduced;
     std::vector<std::vector<float>> m_samples;  ///< a plane a band, before they are rounded
     std::vector<std::vector<std::byte>> m_stored;
+    std::vector<std::vector<float>> m_expanded;  ///< a plane a band, of what is stored
+    std::vector<BandView> m_bands;
     std::vector<std::vector<double>> m_differences;
     NonNegative m_non_negative;
     std::vector<double> m_pixel;

@@ -4,6 +4,7 @@
 #include <formats/envi/attribute_fields.h>
 #include <formats/exr/spectral_header.h>
 #include <formats/image/preview_plan.h>
+#include <formats/image/scene_basis.h>
 #include <formats/reduce/candidate.h>
 
 #include <osio/base/text.h>
@@ -46,7 +47,8 @@ void set_text(std::string_view name, std::string text, Imf::Header& header) {
 Result<void> complete(const Subject& subject, const TextLoader& load_text, Candidate& candidate) {
     const std::string set = subject.job().set().name();
     candidate.plans.clear();
-    candidate.weights = WeightMatrix(3 * subject.demands.size(), candidate.matrix.rows());
+    const WeightMatrix& bands = candidate.expansion.rows() > 0 ? candidate.expansion : candidate.matrix;
+    candidate.weights = WeightMatrix(3 * subject.demands.size(), bands.rows());
     for (std::size_t d = 0; d < subject.demands.size(); ++d) {
         const CollapseRequest& asked = subject.demands[d].plan.request;
         CollapseRequest request;
@@ -75,6 +77,10 @@ Result<Candidate> describe(const Subject& subject, std::vector<image::Channel> c
     for (const image::Channel& channel : channels)
         names.push_back(channel.name);
     exr::complete_spectral_header(parse_channel_layout(names, DecimalMark::Comma), header);
+    if (candidate.stored.empty())
+        candidate.stored = channels;
+    else if (job.alpha)
+        candidate.stored.push_back(channels.back());
     candidate.part = convert::described_part(std::move(channels), std::move(header));
     OSIO_CHECK_OK(complete(subject, load_text, candidate));
     return candidate;
@@ -130,6 +136,37 @@ Result<Candidate> whole_candidate(const Subject& subject, SampleType type, const
     return describe(subject, std::move(channels), std::move(header), std::move(out), load_text);
 }
 
+Result<Candidate> scene_candidate(const Subject& subject, const SceneFit& fit, std::size_t count,
+                                  double fidelity, SampleType type, const TextLoader& load_text) {
+    const image::CollapseJob& job = subject.job();
+    const std::vector<std::string> names = convert::derived_names(job.part());
+    std::vector<image::Channel> channels;
+    for (const std::size_t column : fit.columns())
+        channels.push_back({names[job.plan.columns[column].channel], SampleType::Float, false});
+    SceneBasis basis = fit.first(count);
+    Candidate out;
+    for (std::size_t k = 0; k < count; ++k)
+        out.stored.push_back({image::coefficient_name(k), type, false});
+    out.matrix = std::move(basis.coefficients);
+    out.expansion = std::move(basis.expansion);
+    out.type = type;
+    out.fidelity = fidelity;
+    Imf::Header header = header_of(subject);
+    set_text(attribute::kBasis, std::string(basis_name(job.plan.basis.basis)), header);
+    return describe(subject, std::move(channels), std::move(header), std::move(out), load_text);
+}
+
+Imf::Header written_header(const Candidate& candidate) {
+    Imf::Header out = candidate.part.header;
+    if (candidate.expansion.rows() == 0)
+        return out;
+    std::vector<std::string> bands;
+    for (std::size_t band = 0; band < candidate.expansion.rows(); ++band)
+        bands.push_back(candidate.part.channels[band].name);
+    set_text(image::attribute::kSceneBasis, image::scene_basis_text(bands, candidate.expansion), out);
+    return out;
+}
+
 Result<Candidate> for_demands(const Candidate& candidate, const Subject& other, const TextLoader& load_text) {
     Candidate out = candidate;
     OSIO_CHECK_OK(complete(other, load_text, out));
@@ -150,7 +187,7 @@ std::vector<std::string> losses(const Subject& subject, const Candidate& candida
             out.push_back("set " + set.name());
     if (const std::size_t others = job.file->parts().size() - 1; others > 0)
         out.push_back(std::to_string(others) + " other part" + (others > 1 ? "s" : ""));
-    if (const std::size_t kept = candidate.matrix.rows();
+    if (const std::size_t kept = candidate.weights.bands();
         candidate.edges_nm.empty() && kept < subject.columns())
         out.push_back(std::to_string(subject.columns() - kept) +
                       " bands that no light and observer here sees");

@@ -80,6 +80,7 @@ Result<void> describe(const Subject& subject, const Subject& others, const Candi
                       const SpectrumSample& sample, const TextLoader& load_text, Reduction& out) {
     out.wavelengths_nm = candidate.plans.front().wavelengths_nm();
     out.edges_nm = candidate.edges_nm;
+    out.coefficients = candidate.expansion.bands();
     out.basis = basis_name(candidate.plans.front().basis.basis);
     out.samples = sample_type_name(candidate.type);
     out.fidelity = candidate.fidelity;
@@ -157,18 +158,19 @@ Result<Outcome> reduce(const Request& request, const TextLoader& load_text, Runn
     out.width = window.width();
     out.height = window.height();
     const auto pixels = static_cast<std::uint64_t>(out.width) * static_cast<std::uint64_t>(out.height);
+    const auto find = request.scene_basis ? find_scene_candidate : find_candidate;
     while (out.passes < kMostPasses) {
         OSIO_TRY(std::optional<Candidate> candidate,
-                 find_candidate(subject, fit, sample, request.tolerance, load_text));
+                 find(subject, fit, sample, request.tolerance, load_text));
         if (!candidate)
             return not_reached(request, subject, "");
         OSIO_CHECK_OK(describe(subject, others, *candidate, sample, load_text, out.reduction));
-        Imf::Header header = candidate->part.header;
+        Imf::Header header = written_header(*candidate);
         out.reduction.compression = compression_of(request, out.reduction, *candidate, pixels);
         OSIO_TRY(header.compression(), exr::find_compression(out.reduction.compression));
         exr::reserve_text(std::string(attribute::kReduction), most_reduction_bytes(out.reduction), header);
         std::vector<exr::OutputChannel> channels;
-        for (const image::Channel& channel : candidate->part.channels)
+        for (const image::Channel& channel : candidate->stored)
             channels.push_back({channel.name, channel.type});
         OSIO_TRY(const auto writer, exr::ExrWriter::create(request.output, std::move(header), channels));
         OSIO_TRY(const PassResult pass,

@@ -24,8 +24,9 @@ struct Request {
     CollapseRequest words;  ///< of the input: wavelengths, quantity, part, set, basis, white-luminance
     std::vector<std::string> lights;                ///< names or tables; none for radiance
     std::vector<std::string> observers{"cie1931"};  ///< colorimetric ones
-    double tolerance = 0;                           ///< CIEDE2000 that no pixel may exceed
-    std::string compression;                        ///< empty: the one that is read fastest
+    bool scene_basis = false;  ///< coefficients of the scene's own curves in place of bins
+    double tolerance = 0;      ///< CIEDE2000 that no pixel may exceed
+    std::string compression;   ///< empty: the one that is read fastest
     files::Durability durability = files::Durability::Handed;
 };
 
@@ -59,6 +60,7 @@ struct Reduction {
 
     std::vector<double> wavelengths_nm;  ///< of the bands that are stored
     std::vector<double> edges_nm;        ///< of their bins; none where all bands stay
+    std::size_t coefficients = 0;        ///< planes that are stored in place of bands; 0: bands
     std::string basis;                   ///< what `spectral:basis` says
     std::string samples;                 ///< half, float
     std::string compression;             ///< none, zip, ...

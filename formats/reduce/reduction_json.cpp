@@ -43,6 +43,7 @@ Json json_of(const Reduction& reduction) {
             {"bands", reduction.wavelengths_nm.size()},
             {"wavelengths_nm", reduction.wavelengths_nm},
             {"edges_nm", reduction.edges_nm},
+            {"coefficients", reduction.coefficients},
             {"basis", reduction.basis},
             {"samples", reduction.samples},
             {"compression", reduction.compression},

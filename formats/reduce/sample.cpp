@@ -85,25 +85,28 @@ std::vector<double> largest_differences(const Subject& subject, const Candidate&
 
 SpectrumLoss spectrum_loss(const Subject& subject, const Candidate& candidate, const SpectrumSample& sample) {
     SpectrumLoss out;
-    if (candidate.edges_nm.empty() || sample.size() == 0)
+    const bool scene = candidate.expansion.rows() > 0;
+    if ((candidate.edges_nm.empty() && !scene) || sample.size() == 0)
         return out;
     const SampleBlock block(sample);
     BlockJudge judge(subject, candidate);
     judge.judge(block.block);
     double sum = 0;
-    std::size_t count = 0;
+    std::size_t count = 0, needed = 0;
     for (std::size_t column = 0; column < subject.columns(); ++column) {
+        if (!subject.weights.needs(column))
+            continue;
         const double nm = subject.job().plan.columns[column].wavelength_nm;
         const auto& edges = candidate.edges_nm;
-        const bool needed = subject.weights.needs(column);
-        if (!needed || nm < edges.front() || nm > edges.back())
+        if (!scene && (nm < edges.front() || nm > edges.back()))
             continue;
-        const auto above = std::upper_bound(edges.begin() + 1, edges.end() - 1, nm);
-        const auto bin = static_cast<std::size_t>(above - edges.begin()) - 1;
-        const BandView stored{judge.stored(bin), candidate.type,
-                              static_cast<std::ptrdiff_t>(sample_bytes(candidate.type))};
+        const auto bin = [&] {
+            const auto above = std::upper_bound(edges.begin() + 1, edges.end() - 1, nm);
+            return static_cast<std::size_t>(above - edges.begin()) - 1;
+        };
+        const BandView read = judge.read(scene ? needed++ : bin());
         for (std::size_t i = 0; i < sample.size(); ++i) {
-            const double away = std::abs(sample_at(stored, i) - sample.pixel(i)[column]);
+            const double away = std::abs(sample_at(read, i) - sample.pixel(i)[column]);
             out.largest = std::max(out.largest, away);
             sum += away * away;
             ++count;

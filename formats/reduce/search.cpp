@@ -16,6 +16,45 @@ constexpr std::array kFidelities{30.0, 10.0, 3.0, 1.0, 0.3, 0.1};
 /// What is judged on a sample must leave something for the pixels that it does not have.
 constexpr double kSampleShare = 0.95;
 constexpr std::size_t kFewest = 2, kMost = 64;
+/// With which the fewest curves of a scene are looked for.
+constexpr double kSceneFidelity = 0.1;
+
+/// The fewest for which a test holds, by steps that grow, then by halving: more hold wherever fewer do, but for what a
+/// search misses.
+template <class Holds>
+Result<std::optional<std::size_t>> fewest(std::size_t least, std::size_t most, const Holds& holds) {
+    std::size_t fails = least - 1;
+    for (std::size_t count = least; count <= most;) {
+        OSIO_TRY(const bool held, holds(count));
+        if (held) {
+            while (count - fails > 1) {
+                const std::size_t middle = (count + fails) / 2;
+                OSIO_TRY(const bool fewer, holds(middle));
+                (fewer ? count : fails) = middle;
+            }
+            return std::optional(count);
+        }
+        if (count == most)
+            break;
+        fails = count;
+        count = std::min(most, count + std::max<std::size_t>(1, count / 2));
+    }
+    return std::optional<std::size_t>();
+}
+
+bool holds_on(const Subject& subject, const Candidate& candidate, const SpectrumSample& sample,
+              double tolerance) {
+    const auto largest = largest_differences(subject, candidate, sample);
+    return *std::max_element(largest.begin(), largest.end()) <= kSampleShare * tolerance;
+}
+
+/// Bytes of a pixel's bands in the original.
+std::size_t original_bytes(const Subject& subject) {
+    std::size_t out = 0;
+    for (const SampleType type : subject.job().column_types())
+        out += sample_bytes(type);
+    return out;
+}
 
 class Finder {
   public:
@@ -25,14 +64,12 @@ class Finder {
           m_search(subject.demands, fit) {}
 
     Result<std::optional<Candidate>> find() {
-        const std::vector<SampleType> types = m_subject.job().column_types();
-        std::size_t bytes = 0;  // a pixel, that must not be reached
-        for (const SampleType type : types)
-            bytes += sample_bytes(type);
+        std::size_t bytes = original_bytes(m_subject);  // a pixel, that must not be reached
         std::optional<Candidate> best;
         for (const SampleType type : {SampleType::Half, SampleType::Float}) {
             const std::size_t most = most_bins(bytes, type);
-            OSIO_TRY(const auto count, fewest_bins(most, type));
+            OSIO_TRY(const auto count,
+                     fewest(kFewest, most, [&](std::size_t bins) { return do_hold(bins, type); }));
             if (!count)
                 continue;
             OSIO_TRY(best, truest(*count, type));
@@ -55,8 +92,7 @@ class Finder {
     }
 
     [[nodiscard]] bool holds(const Candidate& candidate) const {
-        const auto largest = largest_differences(m_subject, candidate, m_sample);
-        return *std::max_element(largest.begin(), largest.end()) <= kSampleShare * m_tolerance;
+        return holds_on(m_subject, candidate, m_sample, m_tolerance);
     }
 
     const std::vector<double>& edges(std::size_t count) {
@@ -73,28 +109,6 @@ class Finder {
     [[nodiscard]] Result<bool> do_hold(std::size_t count, SampleType type) {
         OSIO_TRY(const Candidate one, candidate(count, kFidelity, type));
         return holds(one);
-    }
-
-    /// By steps that grow, then by halving: more bins hold wherever fewer do, but for what a descent misses.
-    Result<std::optional<std::size_t>> fewest_bins(std::size_t most, SampleType type) {
-        std::size_t fails = kFewest - 1;
-        for (std::size_t count = kFewest;;
-             count = std::min(most, count + std::max<std::size_t>(1, count / 2))) {
-            if (count > most)
-                return std::optional<std::size_t>();
-            OSIO_TRY(const bool held, do_hold(count, type));
-            if (held) {
-                while (count - fails > 1) {
-                    const std::size_t middle = (count + fails) / 2;
-                    OSIO_TRY(const bool fewer, do_hold(middle, type));
-                    (fewer ? count : fails) = middle;
-                }
-                return std::optional(count);
-            }
-            if (count == most)
-                return std::optional<std::size_t>();
-            fails = count;
-        }
     }
 
     /// The samples that are nearest to the spectrum among those that hold.
@@ -123,6 +137,39 @@ Result<std::optional<Candidate>> find_candidate(const Subject& subject, const Bi
                                                 const SpectrumSample& sample, double tolerance,
                                                 const TextLoader& load_text) {
     return Finder(subject, fit, sample, tolerance, load_text).find();
+}
+
+Result<std::optional<Candidate>> find_scene_candidate(const Subject& subject, const BinFit& fit,
+                                                      const SpectrumSample& sample, double tolerance,
+                                                      const TextLoader& load_text) {
+    std::map<double, SceneFit> fits;  // by fidelity
+    const auto make = [&](std::size_t count, double fidelity, SampleType type) {
+        auto found = fits.find(fidelity);
+        if (found == fits.end())
+            found = fits.emplace(fidelity, SceneFit(subject.demands, fit, fidelity, sample)).first;
+        return scene_candidate(subject, found->second, count, fidelity, type, load_text);
+    };
+    const auto holds = [&](std::size_t count, double fidelity, SampleType type) -> Result<bool> {
+        OSIO_TRY(const Candidate one, make(count, fidelity, type));
+        return holds_on(subject, one, sample, tolerance);
+    };
+    std::size_t bytes = original_bytes(subject);
+    std::optional<Candidate> best;
+    for (const SampleType type : {SampleType::Half, SampleType::Float}) {
+        const std::size_t most = std::min((bytes - 1) / sample_bytes(type), subject.weighed() - 1);
+        OSIO_TRY(const auto count,
+                 fewest(1, most, [&](std::size_t curves) { return holds(curves, kSceneFidelity, type); }));
+        if (!count)
+            continue;
+        bytes = *count * sample_bytes(type);
+        for (const double fidelity : kFidelities) {
+            OSIO_TRY(Candidate one, make(*count, fidelity, type));
+            best = std::move(one);
+            if (holds_on(subject, *best, sample, tolerance))
+                break;
+        }
+    }
+    return best;
 }
 
 }  // namespace osio::reduce

@@ -14,4 +14,10 @@ namespace osio::reduce {
                                                               const SpectrumSample& sample, double tolerance,
                                                               const TextLoader& load_text);
 
+/// The same of coefficients of the scene's own curves, as halves or as floats.
+[[nodiscard]] Result<std::optional<Candidate>> find_scene_candidate(const Subject& subject, const BinFit& fit,
+                                                                    const SpectrumSample& sample,
+                                                                    double tolerance,
+                                                                    const TextLoader& load_text);
+
 }  // namespace osio::reduce

@@ -25,6 +25,14 @@ struct Subject {
 
     [[nodiscard]] std::size_t columns() const { return weights.bands(); }
 
+    /// Columns that some demand needs.
+    [[nodiscard]] std::size_t weighed() const {
+        std::size_t out = 0;
+        for (std::size_t column = 0; column < columns(); ++column)
+            out += weights.needs(column);
+        return out;
+    }
+
     void add(image::CollapseJob job, double white_luminance);
 
     /// The columns that any demand needs, or a plan beside them, then alpha.

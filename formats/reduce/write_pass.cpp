@@ -28,12 +28,12 @@ class Writing final : public BlockVisitor {
         m_block.counts = m_judge.counts();
         count(block);
         std::vector<exr::ChannelRows> rows;
-        for (std::size_t channel = 0; channel < m_candidate.part.channels.size(); ++channel) {
-            const SampleType type = m_candidate.part.channels[channel].type;
+        for (std::size_t channel = 0; channel < m_candidate.stored.size(); ++channel) {
+            const SampleType type = m_candidate.stored[channel].type;
             const auto bytes = static_cast<std::ptrdiff_t>(sample_bytes(type));
-            const bool band = channel < m_candidate.matrix.rows();
+            const bool plane = channel < m_candidate.matrix.rows();
             rows.push_back(
-                {band ? m_judge.stored(channel) : m_alpha.convert(block, m_subject.columns(), type), bytes,
+                {plane ? m_judge.stored(channel) : m_alpha.convert(block, m_subject.columns(), type), bytes,
                  bytes * block.width});
         }
         m_packed = m_packer->pack(block.first_row, block.row_count, rows);

@@ -4,6 +4,7 @@
 import json
 import os
 import re
+import shutil
 import unittest
 
 import numpy as np
@@ -223,6 +224,49 @@ class Reduce(OsioCase):
         report = self.reduce("a.hdr", "--quantity", "reflectance", "--lights", "lamp.csv,D65", "--max-delta-e", "0.5")
         told = self.osiotool_json("difference", "a.exr", "r.spexr", "--illuminant", "lamp.csv")
         self.assertAlmostEqual(report["demands"][0]["delta_e_max"], told["max"], delta=1e-6)
+
+    def test_coefficients_of_the_scene(self):
+        self.write_exr("a.exr", dict(smooth(noise=0.02), A=np.full(SHAPE, 0.5, np.float32)))
+        report = self.reduce("a.exr", *FOUR, "--max-delta-e", "0.5", "--per-scene-basis")
+        self.assertLess(report["coefficients"], 14)
+        self.assertEqual((report["bands"], report["wavelengths_nm"], report["edges_nm"]), (81, GRID, []))
+        types = self.exr_channels("r.spexr")
+        self.assertEqual(sorted(types), ["A"] + [f"coefficient.{k:03}" for k in range(report["coefficients"])])
+        self.assertEqual(types["coefficient.000"], "16-bit floating-point")
+        self.osiotool("convert", "r.spexr", "bands.exr", "--quiet")
+        shutil.copy(self.path("r.spexr"), self.path("raw.exr"))
+        # What the attribute says, by other code.
+        spec, stored = self.read("bands.exr")
+        self.assertIsNone(spec.getattribute("spectral:sceneBasis"))
+        header = self.check("exrheader", "r.spexr")
+        text = re.search(r'spectral:sceneBasis \(type string\): "([^"]*)"', header)[1].split("\n")
+        self.assertEqual(text[0], ";".join(f"T.{nm}nm" for nm in GRID))
+        curves = np.array([[float(v) for v in line.split(";")] for line in text[1:]])
+        raw = self.channels_of("raw.exr")  # by OpenImageIO's own reader
+        coefficients = np.stack([raw[f"coefficient.{k:03}"] for k in range(len(curves))], axis=-1).astype(np.float64)
+        self.expect(self.pixels("bands.exr"), coefficients @ curves, allowed=1e-7)
+        self.assertEqual(report["negative_samples"], np.count_nonzero(self.pixels("bands.exr") < 0))
+        self.holds("a.exr", report, out="bands.exr")
+        for light in LIGHTS:
+            told = self.osiotool_json("difference", "bands.exr", "r.spexr", "--illuminant", light)
+            self.assertEqual(told["max"], 0)
+        self.both("r.spexr", to="lin_rec709", illuminant="FL11")
+        self.assertIn("81 bands", self.osiotool("info", "r.spexr").stdout)
+        self.assertEqual(self.attribute("bands.exr"), {k: v for k, v in report.items() if k in self.attribute("bands.exr")})
+
+    def test_a_scene_basis_that_is_none_is_damage(self):
+        planes = {f"coefficient.{k:03}": np.full((2, 3), 0.5, np.float32) for k in range(2)}
+        for text, said in (("T.500nm;T.600nm\n1;0\n0;1", None),
+                           ("T.500nm;T.600nm\n1;0\n0", "line of 1 numbers, expected 2"),
+                           ("T.500nm;T.600nm\n1;0\n0;nan", "is no number"),
+                           ("T.500nm;T.500nm\n1;0\n0;1", "comes twice"),
+                           ("T.500nm;blue\n1;0\n0;1", "no name of a band"),
+                           ("T.500nm;T.600nm", "found 0 coefficients"),
+                           ("", "no name of a band"),
+                           ("T.500nm;T.600nm\n1;0\n0;1\n1;1", "no channel coefficient.002")):
+            self.write_exr("c.exr", planes, attributes=[("spectral:sceneBasis", text or " ")])
+            result = self.osiotool("info", "c.exr", code=4 if said else 0)
+            self.assertRegex(result.stderr if said else result.stdout, said or "2 bands")
 
     def test_refusals_leave_nothing(self):
         self.write_exr("t.exr", smooth(shape=(4, 6)))

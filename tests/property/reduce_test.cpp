@@ -8,6 +8,7 @@
 #include <osio/reduce/bin_search.h>
 #include <osio/reduce/colour_check.h>
 #include <osio/reduce/non_negative.h>
+#include <osio/reduce/scene_basis.h>
 
 #include <support/sets.h>
 
@@ -210,6 +211,58 @@ TEST(Reduce, PixelsWithoutAColourAreNotSampled) {
     sample.add(std::array{0.25, 0.5});
     ASSERT_EQ(sample.size(), 1U);
     EXPECT_EQ(sample.pixel(0)[0], 0.25);
+}
+
+TEST(Reduce, EigenvectorsAreThose) {
+    const std::size_t n = 12;
+    WeightMatrix a(n, n);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j <= i; ++j)
+            a.at(i, j) = a.at(j, i) = uniform(-1, 1);
+    const SymmetricEigen eigen = symmetric_eigen(a);
+    for (std::size_t v = 0; v < n; ++v)
+        for (std::size_t i = 0; i < n; ++i) {
+            double sum = 0;
+            for (std::size_t j = 0; j < n; ++j)
+                sum += a.at(i, j) * eigen.vectors.at(j, v);
+            ASSERT_NEAR(sum, eigen.values[v] * eigen.vectors.at(i, v), 1e-12);
+        }
+}
+
+TEST(Reduce, AsManyCurvesAsBandsAreTheIdentityAndFewerLoseLessTheMoreThereAre) {
+    const auto nm = steps(400, 10, 700);
+    const auto demands = demands_of(set_of(Family::T, nm), kLights);
+    const BinFit fit(demands);
+    const SpectrumSample sample = smooth_sample(nm, 500);
+    const SceneFit scene(demands, fit, 1, sample);
+    ASSERT_EQ(scene.columns().size(), nm.size());
+    double before = std::numeric_limits<double>::infinity();
+    for (const std::size_t count : {2U, 5U, 9U, 31U}) {
+        const SceneBasis basis = scene.first(count);
+        for (std::size_t i = 0; i < count; ++i)
+            for (std::size_t j = 0; j < count; ++j) {
+                double sum = 0;
+                for (std::size_t band = 0; band < nm.size(); ++band)
+                    sum += basis.coefficients.at(i, band) * basis.expansion.at(band, j);
+                ASSERT_NEAR(sum, i == j, 1e-9);
+            }
+        double worst = 0, away = 0;
+        for (std::size_t i = 0; i < sample.size(); ++i) {
+            const auto again = times(basis.expansion, times(basis.coefficients, sample.pixel(i)));
+            for (std::size_t band = 0; band < nm.size(); ++band)
+                away = std::max(away, std::abs(again[band] - sample.pixel(i)[band]));
+            for (const Demand& demand : demands)
+                worst = std::max(
+                    worst, delta_e_2000(lab_of(sum(demand.plan.weights, 0, sample.pixel(i)), demand.white),
+                                        lab_of(sum(demand.plan.weights, 0, again), demand.white)));
+        }
+        std::printf("%zu curves: largest CIEDE2000 %.3g\n", count, worst);
+        EXPECT_LT(worst, before);
+        before = worst;
+        if (count == nm.size()) {
+            EXPECT_LT(away, 1e-9);
+        }
+    }
 }
 
 /// A random metric of the kind that a fit has: few directions that matter much.

@@ -42,6 +42,7 @@ Result<ExitCode> run_reduce(const ReduceOptions& options) {
     }
     OSIO_TRY(request.observers, names_of("--observers", options.observers));
     request.tolerance = options.tolerance;
+    request.scene_basis = options.scene_basis;
     request.compression = options.compression;
     request.durability = options.fsync ? files::Durability::Stored : files::Durability::Handed;
     ThreadRunner runner(options.threads);

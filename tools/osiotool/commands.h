@@ -155,6 +155,7 @@ struct ReduceOptions {
     std::string lights;    ///< between commas; empty: none, for radiance
     std::string observers = "cie1931";
     std::string compression;  ///< empty: the fastest to read
+    bool scene_basis = false;
     bool fsync = false;
     unsigned threads = 0;
     bool quiet = false;

@@ -316,6 +316,8 @@ class CommandLine {
             ->add_option("--compression", m_reduce.compression,
                          "one without loss; default: the fastest to read")
             ->type_name("C");
+        command->add_flag("--per-scene-basis", m_reduce.scene_basis,
+                          "coefficients of the scene's own curves, which only this project reads");
         command->add_flag("--fsync", m_reduce.fsync, "done only when the storage has every byte");
         command->add_option("--threads", m_reduce.threads, "default: one a processor")->type_name("N");
         command->add_flag("--quiet", m_reduce.quiet, "no summary, no progress");

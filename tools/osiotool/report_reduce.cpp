@@ -13,6 +13,9 @@ namespace {
 constexpr double kMega = 1e6;
 
 std::string bands_text(const reduce::Reduction& reduction) {
+    if (reduction.coefficients > 0)
+        return fmt::format("{} coefficients as {} of {} bands, which only this project reads",
+                           reduction.coefficients, reduction.samples, reduction.wavelengths_nm.size());
     if (reduction.edges_nm.empty())
         return fmt::format("all {} bands as {}", reduction.wavelengths_nm.size(), reduction.samples);
     std::vector<std::string> edges;
@@ -68,7 +71,7 @@ std::string reduce_text(const reduce::Outcome& outcome, double seconds) {
                        format_double(reduction.tolerance), reduction.white_luminance, reduction.white_reason);
     out += demands_table(reduction);
     out += exclusions_text(reduction);
-    if (!reduction.edges_nm.empty())
+    if (!reduction.edges_nm.empty() || reduction.coefficients > 0)
         out += fmt::format("spectra of sampled pixels are off by {:.2g} (RMS), {:.2g} at most\n",
                            reduction.spectrum_rms, reduction.spectrum_largest);
     if (reduction.changed_pixels > 0)
@@ -76,8 +79,8 @@ std::string reduce_text(const reduce::Outcome& outcome, double seconds) {
             "{} pixels would be below zero in some band: the nearest samples that are not are stored\n",
             reduction.changed_pixels);
     if (reduction.negative_samples > 0)
-        out += fmt::format("{} samples are below zero, in pixels where the original has some\n",
-                           reduction.negative_samples);
+        out += fmt::format("{} samples are below zero{}\n", reduction.negative_samples,
+                           reduction.coefficients > 0 ? "" : ", in pixels where the original has some");
     if (reduction.clamped_samples > 0)
         out += fmt::format("{} samples were beyond +-65504 and are that now\n", reduction.clamped_samples);
     for (const std::string& lost : reduction.lost)
