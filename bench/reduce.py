@@ -169,6 +169,9 @@ def scene_rows(name, source, folder, rounds):
     if report["compression"] != "zip":
         reduced(source, packed, "--compression", "zip")
         files.append((f"**reduce** `--compression zip`, {report['samples']}", report["bands"], packed, off))
+    path = os.path.join(folder, "scene.spexr")
+    own, off = reduced(source, path, "--per-scene-basis")
+    files.append((f"**reduce** `--per-scene-basis`, {own['samples']}, {own['compression']}", own["coefficients"], path, off))
     for count in (10, 12, 16):
         path = os.path.join(folder, f"plain{count}.exr")
         osiotool("convert", source, path, "--resample", plain_steps(380, 780, count), "--half", "--quiet")
@@ -214,7 +217,7 @@ def scenes(options, folder):
         path = os.path.join(folder, "scene.exr")
         make(path, name, width, height)
         out += scene_rows(name, path, folder, options.rounds)
-        print("\n".join(out[-7:]), flush=True)
+        print("\n".join(out[-8:]), flush=True)
     return out
 
 

@@ -251,6 +251,8 @@ class Reduce(OsioCase):
             told = self.osiotool_json("difference", "bands.exr", "r.spexr", "--illuminant", light)
             self.assertEqual(told["max"], 0)
         self.both("r.spexr", to="lin_rec709", illuminant="FL11")
+        words = ("--to", "xyz", "--illuminant", "A", "--oiiotool")
+        self.assertRegex(self.osiotool("weights", "r.spexr", *words, code=1).stderr, "expected bands")
         self.assertIn("81 bands", self.osiotool("info", "r.spexr").stdout)
         self.assertEqual(self.attribute("bands.exr"), {k: v for k, v in report.items() if k in self.attribute("bands.exr")})
 

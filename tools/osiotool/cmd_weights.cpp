@@ -3,6 +3,7 @@
 #include <tools/osiotool/host_loader.h>
 #include <tools/osiotool/request_words.h>
 
+#include <formats/exr/exr_file.h>
 #include <formats/files/text_file.h>
 #include <formats/image/collapse_job.h>
 
@@ -61,6 +62,12 @@ Result<std::string> oiiotool_command(const image::CollapseJob& job, const std::s
         return fail(ErrorCode::Unsupported,
                     "is " + std::string(job.file->format()) + ", which a stock oiiotool does not read",
                     job.file->path());
+    if (dynamic_cast<const exr::ExrFile*>(job.file.get()) == nullptr)
+        return fail(
+            ErrorCode::Unsupported,
+            "holds coefficients of its scene's own curves in place of bands, which a stock oiiotool does not "
+            "expand; expected bands, as `osiotool convert` makes of them",
+            job.file->path());
     OSIO_TRY(const host::HostModule* const module, load_host_module());
     OSIO_TRY(const auto order, module->channel_order(job.file->path(), job.part_index));
     std::map<std::string, std::size_t> columns;

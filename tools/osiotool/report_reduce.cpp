@@ -14,8 +14,8 @@ constexpr double kMega = 1e6;
 
 std::string bands_text(const reduce::Reduction& reduction) {
     if (reduction.coefficients > 0)
-        return fmt::format("{} coefficients as {} of {} bands, which only this project reads",
-                           reduction.coefficients, reduction.samples, reduction.wavelengths_nm.size());
+        return fmt::format("{} coefficients as {}, which only this project reads,", reduction.coefficients,
+                           reduction.samples);
     if (reduction.edges_nm.empty())
         return fmt::format("all {} bands as {}", reduction.wavelengths_nm.size(), reduction.samples);
     std::vector<std::string> edges;
