@@ -265,6 +265,7 @@ class Reduce(OsioCase):
                            ("T.500nm;blue\n1;0\n0;1", "no name of a band"),
                            ("T.500nm;T.600nm", "found 0 coefficients"),
                            ("", "no name of a band"),
+                           (";".join(f"T.{nm}nm" for nm in range(400, 2449)) + "\n" + ";".join(["1"] * 2049), "1 to 2048"),
                            ("T.500nm;T.600nm\n1;0\n0;1\n1;1", "no channel coefficient.002")):
             self.write_exr("c.exr", planes, attributes=[("spectral:sceneBasis", text or " ")])
             result = self.osiotool("info", "c.exr", code=4 if said else 0)
