@@ -65,7 +65,7 @@ class Reduce(OsioCase):
                 self.assertAlmostEqual(demand["delta_e_max"], told["max"], delta=1e-6)
                 self.assertAlmostEqual(demand["delta_e_mean"], told["mean"], delta=1e-6)
                 found = self.differences(source, out, *words)
-                self.assertAlmostEqual(demand["delta_e_max"], found.max(), delta=1e-3)
+                self.assertAlmostEqual(demand["delta_e_max"], found.max(), delta=1e-4)
 
     def test_what_it_says_is_what_is_there(self):
         for noise in (0, 0.02):
