@@ -157,7 +157,7 @@ def reduced(source, small, *words, radiance=False):
 def line(name, title, bands, size, before, taken, first, mean, largest, another):
     times = f"{statistics.median(taken):.3f} | {ratio(taken, first):.1f}" if taken else " | "
     return (f"| {name} | {title} | {bands} | {size / 1e6:.2f} | {before / size:.1f} | {times} | {mean:.3f} | "
-            f"{largest:.3f} | {another}|")
+            f"{largest:.3f} |{another}")
 
 
 def scene_rows(name, source, folder, rounds):
@@ -180,7 +180,7 @@ def scene_rows(name, source, folder, rounds):
     before = os.path.getsize(source)
 
     def another(path):
-        return f"{0 if path == source else lost(source, path, (ANOTHER,))[1]:.2f} "
+        return f" {0 if path == source else lost(source, path, (ANOTHER,))[1]:.2f} |"
 
     lines = [line(name, title, bands, os.path.getsize(path), before, taken, times[0], *off, another(path))
              for (title, bands, path, off), taken in zip(files, times)]
@@ -249,7 +249,7 @@ def headline(options, folder):
             times = seconds([("collapse", source, result, *COLLAPSE, *words) for source in (path, small)], options.rounds)
             out.append(f"| {name} | {before / 1e6:.1f} | {after / 1e6:.1f} | {before / after:.1f} | {target} | "
                        f"`collapse{' ' if words else ''}{' '.join(words)}` | {statistics.median(times[0]):.2f} | "
-                       f"{statistics.median(times[1]):.2f} | {ratio(times[1], times[0]):.1f} | 4 |")
+                       f"{statistics.median(times[1]):.2f} | {ratio(times[1], times[0]):.2f} | 4 |")
             print(out[-1], flush=True)
         os.remove(path)
     return out

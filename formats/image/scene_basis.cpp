@@ -16,8 +16,9 @@ namespace {
 
 constexpr std::size_t kDigits = 3;
 
-/// As many as anyone has bands or coefficients of.
-constexpr std::size_t kMost = 65536;
+/// Bands and coefficients. A small file can name many bands, each of which takes the memory of a plane: so many are 0.25 nm
+/// apart over 360-830 nm.
+constexpr std::size_t kMost = 2048;
 
 struct Expansion {
     std::vector<std::string> bands;
@@ -56,7 +57,8 @@ Result<Expansion> parse(std::string_view text) {
     }
     if (out.rows.empty() || out.rows.size() > kMost || out.bands.size() > kMost)
         return damaged("found " + std::to_string(out.rows.size()) + " coefficients of " +
-                       std::to_string(out.bands.size()) + " bands, expected 1 to 65536 of each");
+                       std::to_string(out.bands.size()) + " bands, expected 1 to " + std::to_string(kMost) +
+                       " of each");
     return out;
 }
 

@@ -18,6 +18,8 @@ constexpr double kSampleShare = 0.95;
 constexpr std::size_t kFewest = 2, kMost = 64;
 /// With which the fewest curves of a scene are looked for.
 constexpr double kSceneFidelity = 0.1;
+/// The curves of so many bands take seconds, of twice as many eight times that.
+constexpr std::size_t kMostSceneBands = 512;
 
 /// The fewest for which a test holds, by steps that grow, then by halving: more hold wherever fewer do, but for what a
 /// search misses.
@@ -142,6 +144,11 @@ Result<std::optional<Candidate>> find_candidate(const Subject& subject, const Bi
 Result<std::optional<Candidate>> find_scene_candidate(const Subject& subject, const BinFit& fit,
                                                       const SpectrumSample& sample, double tolerance,
                                                       const TextLoader& load_text) {
+    if (subject.columns() > kMostSceneBands)
+        return fail(ErrorCode::Unsupported,
+                    "--per-scene-basis is for " + std::to_string(kMostSceneBands) + " bands at most, found " +
+                        std::to_string(subject.columns()) + "; leave it out, or convert --resample first",
+                    subject.job().file->path());
     std::map<double, SceneFit> fits;  // by fidelity
     const auto make = [&](std::size_t count, double fidelity, SampleType type) {
         auto found = fits.find(fidelity);
