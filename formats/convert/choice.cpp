@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/convert/choice.h>
 #include <formats/exr/output_header.h>
+#include <formats/image/header_attributes.h>
 #include <formats/image/preview_plan.h>
 
 #include <osio/base/text.h>
@@ -23,7 +24,7 @@ void cut_bin_edges(const image::Part& part, const SpectralSet& whole, const Spec
         return;
     const auto& edges = part.metadata.bin_edges_nm;
     if (edges.size() != whole.bands.size() + 1) {
-        out.attributes.erase(name);
+        image::erase_attributes({name}, out.attributes);
         out.lost.push_back(name + ", which do not fit the bands");
         return;
     }
@@ -116,8 +117,8 @@ Result<void> leave_out(const std::function<bool(double nm)>& keep, const std::st
             left_out.insert(*channel);
             choice.lost.push_back("channel " + name + ", a preview of all bands");
         }
-    choice.attributes.erase(image::attribute::kPreviewRecipe);
-    choice.attributes.erase(std::string(attribute::kReduction));
+    image::erase_attributes({image::attribute::kPreviewRecipe, std::string(attribute::kReduction)},
+                            choice.attributes);
     std::erase_if(choice.channels, [&](std::size_t channel) { return left_out.contains(channel); });
     choice.spoken_of.insert(left_out.begin(), left_out.end());
     return {};

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/convert/choice.h>
-#include <formats/convert/derived_image.h>
 #include <formats/convert/join.h>
 #include <formats/convert/joined_rows.h>
+#include <formats/image/derived_image.h>
+#include <formats/image/header_attributes.h>
 
 #include <osio/base/text.h>
 
@@ -179,14 +180,14 @@ Imf::Header joined_attributes(const std::vector<Member>& members, std::vector<st
         }
     }
     if (members.size() > 1 && widths) {
-        out.erase(std::string(attribute::kFwhm));
+        image::erase_attributes({std::string(attribute::kFwhm)}, out);
         if (const auto text = joined_widths(members))
             out.insert(std::string(attribute::kFwhm), Imf::StringAttribute(*text));
         else
             lost.push_back(std::string(attribute::kFwhm) + ", which not all files have");
     }
     if (members.size() > 1 && edges) {
-        out.erase(std::string(attribute::kBinEdges));
+        image::erase_attributes({std::string(attribute::kBinEdges)}, out);
         lost.push_back(std::string(attribute::kBinEdges) + ", which count the bands of one file");
     }
     for (const auto& [file, names] : conflicts)
@@ -205,7 +206,7 @@ Result<Joined> join_images(Images images, const std::string& part) {
     std::map<std::string, std::size_t> taken;  // a band's or channel's name, and the member that has it
     for (std::size_t m = 0; m < members.size(); ++m) {
         const image::Part& header = members[m].header();
-        const std::vector<std::string> own = derived_names(header);
+        const std::vector<std::string> own = image::derived_names(header);
         std::vector<std::string> hidden;
         for (std::size_t c = 0; c < header.channels.size(); ++c) {
             const std::string& name = own[c];
@@ -229,7 +230,7 @@ Result<Joined> join_images(Images images, const std::string& part) {
             out.lost.push_back((hidden.size() > 1 ? "channels " : "channel ") + names_text(hidden) + " of " +
                                members[m].name());
     }
-    image::Part whole = described_part(std::move(channels), joined_attributes(members, out.lost));
+    image::Part whole = image::described_part(std::move(channels), joined_attributes(members, out.lost));
     // What was said when the files were read is still worth saying; sets and names are described anew.
     for (const Member& member : members)
         add_unique(member.header().layout.warnings, whole.layout.warnings);

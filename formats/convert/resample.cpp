@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/convert/choice.h>
-#include <formats/convert/derived_image.h>
 #include <formats/convert/resample.h>
 #include <formats/envi/attribute_fields.h>
+#include <formats/image/derived_image.h>
+#include <formats/image/header_attributes.h>
 #include <formats/image/preview_plan.h>
 
 #include <osio/base/text.h>
@@ -21,7 +22,7 @@ namespace {
 class Builder {
   public:
     explicit Builder(const image::Part& part)
-        : m_part(part), m_names(derived_names(part)), m_header(attributes_of(part)) {}
+        : m_part(part), m_names(image::derived_names(part)), m_header(attributes_of(part)) {}
 
     void keep(const SpectralSet& set) {
         for (const Band& band : set.bands)
@@ -41,7 +42,7 @@ class Builder {
         for (std::size_t t = 0; t < targets.size(); ++t) {
             const std::string name =
                 format_channel_name({set.root, set.family, targets[t], {}}, DecimalMark::Comma);
-            DerivedChannel channel{{name, SampleType::Float, false}, std::nullopt, {}};
+            image::DerivedChannel channel{{name, SampleType::Float, false}, std::nullopt, {}};
             for (std::size_t band = 0; band < set.bands.size(); ++band)
                 if (plan.weights.at(t, band) != 0)
                     channel.terms.push_back({set.bands[band].channel, plan.weights.at(t, band)});
@@ -66,10 +67,9 @@ class Builder {
                 (!m_sets.empty() && (name == attribute::kFwhm || name == attribute::kReduction || counts)))
                 names.push_back(name);
         }
-        for (const std::string& name : names)
-            m_header.erase(name);
+        image::erase_attributes({names.begin(), names.end()}, m_header);
         if (!m_pictures.empty())
-            m_header.erase(image::attribute::kPreviewRecipe);
+            image::erase_attributes({image::attribute::kPreviewRecipe}, m_header);
         if (!names.empty())
             m_lost.push_back((names.size() > 1 ? "attributes " : "attribute ") + names_text(names) +
                              ", of the bands before");
@@ -80,7 +80,7 @@ class Builder {
             else
                 keep_channel(channel);
         }
-        return {derive_image(std::move(image), part, std::move(m_channels), std::move(m_header)),
+        return {image::derive_image(std::move(image), part, std::move(m_channels), std::move(m_header)),
                 std::move(m_lost),
                 {}};
     }
@@ -104,7 +104,7 @@ class Builder {
         if (m_header.find(name) == m_header.end())
             return;
         if (!plan.binned) {
-            m_header.erase(name);
+            image::erase_attributes({name}, m_header);
             m_lost.push_back(name + ": the new bands are samples");
             return;
         }
@@ -118,7 +118,7 @@ class Builder {
     const image::Part& m_part;
     std::vector<std::string> m_names;
     Imf::Header m_header;
-    std::vector<DerivedChannel> m_channels;
+    std::vector<image::DerivedChannel> m_channels;
     std::set<std::pair<std::string, Family>> m_sets;  // that are no longer as they were
     std::set<std::string> m_pictures;
     std::vector<std::string> m_lost;

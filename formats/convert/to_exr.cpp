@@ -4,6 +4,7 @@
 #include <formats/exr/exr_file.h>
 #include <formats/exr/exr_writer.h>
 #include <formats/exr/spectral_header.h>
+#include <formats/image/header_attributes.h>
 
 #include <osio/layout/presentation.h>
 
@@ -143,12 +144,13 @@ Result<std::vector<PartPlan>> two_parts(const Choice& choice, const std::vector<
         return std::find(picture.begin(), picture.end(), name) != picture.end();
     };
     const std::string alpha = choice.set.root.empty() ? "A" : choice.set.root + ".A";
-    Imf::Header first = header;
+    std::set<std::string, std::less<>> of_bands{
+        std::string(attribute::kBasis), std::string(attribute::kBinEdges), std::string(attribute::kFwhm)};
     for (auto a = header.begin(); a != header.end(); ++a)
         if (describes_bands(a.name()))
-            first.erase(a.name());
-    for (const std::string_view name : {attribute::kBasis, attribute::kBinEdges, attribute::kFwhm})
-        first.erase(std::string(name));
+            of_bands.insert(a.name());
+    Imf::Header first = header;
+    image::erase_attributes(of_bands, first);
     first.setName("rgb");
     Imf::Header second = header;
     second.setName("spectral");
@@ -176,7 +178,7 @@ Result<std::unique_ptr<Sink>> open_exr(const Request& request, const Choice& cho
     Imf::Header header = choice.attributes;
     for (std::size_t c = 0; c < channels.size(); ++c)
         if (channels[c].type != choice.part().channels[choice.channels[c]].type)
-            header.erase(std::string(attribute::kReduction));
+            image::erase_attributes({std::string(attribute::kReduction)}, header);
     if (!request.compression.empty()) {
         OSIO_TRY(header.compression(), exr::find_compression(request.compression));
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/files/text_file.h>
 #include <formats/image/colour_attributes.h>
+#include <formats/image/header_attributes.h>
 #include <formats/image/preview_plan.h>
 
 #include <osio/base/text.h>
@@ -21,8 +22,7 @@ Result<CollapsePlan> preview_plan(const SpectralSet& set, const SpectralMetadata
 }
 
 void insert_preview_attributes(const CollapsePlan& plan, Imf::Header& header) {
-    header.erase(std::string(osio::attribute::kExposureValue));
-    header.erase(attribute::kColorSpace);
+    erase_attributes({std::string(osio::attribute::kExposureValue), attribute::kColorSpace}, header);
     header.insert(attribute::kChromaticities, Imf::ChromaticitiesAttribute(chromaticities_of(plan.space)));
     header.insert(attribute::kPreviewRecipe, Imf::StringAttribute(recipe_text(plan.request)));
 }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <formats/convert/derived_image.h>
+#include <formats/image/derived_image.h>
+#include <formats/image/header_attributes.h>
 #include <formats/image/scene_basis.h>
 
 #include <osio/base/text.h>
@@ -108,9 +109,9 @@ Result<std::shared_ptr<const SpectralImage>> expand_scene_basis(std::shared_ptr<
                         file->path());
         coefficients.push_back(*channel);
     }
-    std::vector<convert::DerivedChannel> channels;
+    std::vector<DerivedChannel> channels;
     for (std::size_t band = 0; band < expansion->bands.size(); ++band) {
-        convert::DerivedChannel channel{{expansion->bands[band], SampleType::Float, false}, std::nullopt, {}};
+        DerivedChannel channel{{expansion->bands[band], SampleType::Float, false}, std::nullopt, {}};
         for (std::size_t k = 0; k < coefficients.size(); ++k)
             channel.terms.push_back({coefficients[k], expansion->rows[k][band]});
         channels.push_back(std::move(channel));
@@ -119,8 +120,8 @@ Result<std::shared_ptr<const SpectralImage>> expand_scene_basis(std::shared_ptr<
         if (std::find(coefficients.begin(), coefficients.end(), channel) == coefficients.end())
             channels.push_back({part.channels[channel], channel, {}});
     Imf::Header header = part.header;
-    header.erase(attribute::kSceneBasis);
-    return convert::derive_image(std::move(file), 0, std::move(channels), std::move(header));
+    erase_attributes({attribute::kSceneBasis}, header);
+    return derive_image(std::move(file), 0, std::move(channels), std::move(header));
 }
 
 }  // namespace osio::image

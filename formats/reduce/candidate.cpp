@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <formats/convert/choice.h>
-#include <formats/convert/derived_image.h>
 #include <formats/envi/attribute_fields.h>
 #include <formats/exr/spectral_header.h>
+#include <formats/image/derived_image.h>
+#include <formats/image/header_attributes.h>
 #include <formats/image/preview_plan.h>
 #include <formats/image/scene_basis.h>
 #include <formats/reduce/candidate.h>
@@ -34,8 +35,7 @@ std::vector<std::string> attributes_of_bands(const Imf::Header& header) {
 /// The original's attributes, without those of a picture or of an earlier reduction.
 Imf::Header header_of(const Subject& subject) {
     Imf::Header out = convert::attributes_of(subject.job().part());
-    out.erase(image::attribute::kPreviewRecipe);
-    out.erase(std::string(attribute::kReduction));
+    image::erase_attributes({image::attribute::kPreviewRecipe, std::string(attribute::kReduction)}, out);
     return out;
 }
 
@@ -81,7 +81,7 @@ Result<Candidate> describe(const Subject& subject, std::vector<image::Channel> c
         candidate.stored = channels;
     else if (job.alpha)
         candidate.stored.push_back(channels.back());
-    candidate.part = convert::described_part(std::move(channels), std::move(header));
+    candidate.part = image::described_part(std::move(channels), std::move(header));
     OSIO_CHECK_OK(complete(subject, load_text, candidate));
     return candidate;
 }
@@ -101,8 +101,8 @@ Result<Candidate> bin_candidate(const Subject& subject, const BinFit& fit, std::
                                  DecimalMark::Comma),
              type, false});
     Imf::Header header = header_of(subject);
-    for (const std::string& name : attributes_of_bands(header))
-        header.erase(name);
+    const std::vector<std::string> of_bands = attributes_of_bands(header);
+    image::erase_attributes({of_bands.begin(), of_bands.end()}, header);
     set_text(attribute::kBasis, std::string(basis_name(Basis::Bins)), header);
     set_text(attribute::kBinEdges, join(edges, ";"), header);
     Candidate out;
@@ -117,7 +117,7 @@ Result<Candidate> bin_candidate(const Subject& subject, const BinFit& fit, std::
 
 Result<Candidate> whole_candidate(const Subject& subject, SampleType type, const TextLoader& load_text) {
     const image::CollapseJob& job = subject.job();
-    const std::vector<std::string> names = convert::derived_names(job.part());
+    const std::vector<std::string> names = image::derived_names(job.part());
     std::vector<image::Channel> channels;
     Candidate out;
     std::vector<std::size_t> kept;  // the rest has no colour for anyone here
@@ -139,7 +139,7 @@ Result<Candidate> whole_candidate(const Subject& subject, SampleType type, const
 Result<Candidate> scene_candidate(const Subject& subject, const SceneFit& fit, std::size_t count,
                                   double fidelity, SampleType type, const TextLoader& load_text) {
     const image::CollapseJob& job = subject.job();
-    const std::vector<std::string> names = convert::derived_names(job.part());
+    const std::vector<std::string> names = image::derived_names(job.part());
     std::vector<image::Channel> channels;
     for (const std::size_t column : fit.columns())
         channels.push_back({names[job.plan.columns[column].channel], SampleType::Float, false});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <formats/convert/derived_image.h>
+#include <formats/image/derived_image.h>
 
 #include <osio/collapse/kernel.h>
 #include <osio/collapse/weights.h>
@@ -8,11 +8,11 @@
 #include <algorithm>
 #include <cstring>
 
-namespace osio::convert {
+namespace osio::image {
 
 namespace {
 
-image::Window window_of(const Imath::Box2i& box) {
+Window window_of(const Imath::Box2i& box) {
     return {box.min.x, box.min.y, box.max.x, box.max.y};
 }
 
@@ -96,16 +96,16 @@ class DerivedSource final : public WrappedSource {
     Planes m_planes;
 };
 
-class DerivedImage final : public image::SpectralImage {
+class DerivedImage final : public SpectralImage {
   public:
-    DerivedImage(std::shared_ptr<const image::SpectralImage> source, std::size_t part,
+    DerivedImage(std::shared_ptr<const SpectralImage> source, std::size_t part,
                  std::vector<DerivedChannel> channels, Imf::Header header)
         : SpectralImage(source->path()), m_source(std::move(source)), m_part(part),
           m_channels(std::move(channels)) {
-        std::vector<image::Channel> described;
+        std::vector<Channel> described;
         for (const DerivedChannel& channel : m_channels)
             described.push_back(channel.channel);
-        image::Part whole = described_part(std::move(described), std::move(header));
+        Part whole = described_part(std::move(described), std::move(header));
         whole.name = m_source->parts()[m_part].name;
         whole.compression = m_source->parts()[m_part].compression;
         add(std::move(whole));
@@ -113,9 +113,9 @@ class DerivedImage final : public image::SpectralImage {
 
     [[nodiscard]] std::string_view format() const override { return m_source->format(); }
 
-    [[nodiscard]] Result<std::unique_ptr<BlockSource>>
-    make_block_source(std::size_t, image::PlaneChannels wanted, image::Grain grain) const override {
-        image::PlaneChannels read;
+    [[nodiscard]] Result<std::unique_ptr<BlockSource>> make_block_source(std::size_t, PlaneChannels wanted,
+                                                                         Grain grain) const override {
+        PlaneChannels read;
         const auto plane_of = [&read](std::size_t channel) {
             const auto found = std::find(read.begin(), read.end(), std::optional(channel));
             const auto plane = static_cast<std::size_t>(found - read.begin());
@@ -147,19 +147,19 @@ class DerivedImage final : public image::SpectralImage {
     }
 
   private:
-    std::shared_ptr<const image::SpectralImage> m_source;
+    std::shared_ptr<const SpectralImage> m_source;
     std::size_t m_part;
     std::vector<DerivedChannel> m_channels;
 };
 
 }  // namespace
 
-image::Part described_part(std::vector<image::Channel> channels, Imf::Header header) {
-    image::Part part;
+Part described_part(std::vector<Channel> channels, Imf::Header header) {
+    Part part;
     part.data_window = window_of(header.dataWindow());
     part.display_window = window_of(header.displayWindow());
     std::vector<std::string> names;
-    for (const image::Channel& channel : channels)
+    for (const Channel& channel : channels)
         names.push_back(channel.name);
     part.layout = parse_channel_layout(names, DecimalMark::Comma);
     part.metadata = read_spectral_metadata(part.layout, image::text_attributes(header));
@@ -168,16 +168,15 @@ image::Part described_part(std::vector<image::Channel> channels, Imf::Header hea
     return part;
 }
 
-std::vector<std::string> derived_names(const image::Part& part) {
+std::vector<std::string> derived_names(const Part& part) {
     return part.layout.dialect.name == kLayoutDialect ? part.layout.channel_names
                                                       : written_names(part.layout);
 }
 
-std::shared_ptr<const image::SpectralImage> derive_image(std::shared_ptr<const image::SpectralImage> source,
-                                                         std::size_t part,
-                                                         std::vector<DerivedChannel> channels,
-                                                         Imf::Header header) {
+std::shared_ptr<const SpectralImage> derive_image(std::shared_ptr<const SpectralImage> source,
+                                                  std::size_t part, std::vector<DerivedChannel> channels,
+                                                  Imf::Header header) {
     return std::make_shared<DerivedImage>(std::move(source), part, std::move(channels), std::move(header));
 }
 
-}  // namespace osio::convert
+}  // namespace osio::image
