@@ -32,7 +32,7 @@ enum class Level {
 struct Choice {
     std::string name = {};
     std::string meaning = {};   ///< in words, for people
-    WeightMatrix weights = {};  ///< 3 x planes of the image, see Choices
+    WeightMatrix weights = {};  ///< 3 x planes of the image, see Choices; of a reduced image x its own
     Input input = Input::Image;
     Matrix3 from_input = {};  ///< of a colour image: what its X, Y, Z are multiplied by
     Level level = Level::Exact;
@@ -41,7 +41,6 @@ struct Choice {
     std::size_t bands = 0;                  ///< that have weight
     std::string path = {};                  ///< of a reduced image
     image::PlaneChannels file_planes = {};  ///< of its only part
-    WeightMatrix file_weights = {};         ///< 3 x those; `weights` has no planes then
 };
 
 /// The choices and what they have in common.

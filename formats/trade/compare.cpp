@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <formats/convert/joined_rows.h>
 #include <formats/image/open_image.h>
 #include <formats/trade/compare.h>
-#include <formats/trade/rows_beside.h>
 
 #include <osio/collapse/kernel.h>
 #include <osio/colour/difference.h>
@@ -25,8 +25,33 @@ struct Comparison {
     int first_row = 0;
     /// The last row that a proxy kept, by choice: a proxy's rows may come with the next block.
     std::vector<Planes> kept_rows;
-    std::vector<std::unique_ptr<BlockSource>> reduced;  ///< by choice; null but of reduced images
+    std::vector<std::size_t> first_plane;  ///< by choice, of those that its weights are for
 };
+
+/// The image's planes, then those of every reduced image.
+Result<std::unique_ptr<BlockSource>> join_planes(const image::CollapseJob& job, const Choices& choices,
+                                                 std::vector<std::size_t>& first_plane) {
+    std::vector<std::unique_ptr<BlockSource>> sources;
+    std::vector<convert::JoinedPlane> joined;
+    const auto add = [&](const image::SpectralImage& file, std::size_t part,
+                         const image::PlaneChannels& planes) -> Result<void> {
+        for (std::size_t plane = 0; plane < planes.size(); ++plane)
+            joined.push_back({sources.size(), plane});
+        OSIO_TRY(auto source, file.make_block_source(part, planes, image::Grain::Block));
+        sources.push_back(std::move(source));
+        return {};
+    };
+    OSIO_CHECK_OK(add(*job.file, job.part_index, choices.planes));
+    for (const Choice& choice : choices.list) {
+        const bool reduced = choice.input == Input::ReducedImage;
+        first_plane.push_back(reduced ? joined.size() : 0);
+        if (reduced) {
+            OSIO_TRY(const auto file, image::open_image(choice.path));
+            OSIO_CHECK_OK(add(*file, 0, choice.file_planes));
+        }
+    }
+    return convert::join_sources(std::move(sources), std::move(joined));
+}
 
 /// The block's bands, rounded to half.
 class HalfBlock {
@@ -59,10 +84,7 @@ class Comparer final : public BlockVisitor {
   public:
     explicit Comparer(Comparison& comparison)
         : m_shared(comparison), m_outputs(comparison.choices.list.size()), m_deltas(m_outputs.size()),
-          m_largest(m_outputs.size()) {
-        for (const auto& source : comparison.reduced)
-            m_beside.push_back(source ? std::make_unique<RowsBeside>(*source) : nullptr);
-    }
+          m_largest(m_outputs.size()) {}
 
     void process(const PlanarBlock& block) override {
         const std::size_t pixels = static_cast<std::size_t>(block.row_count) * m_shared.width;
@@ -72,10 +94,6 @@ class Comparer final : public BlockVisitor {
         block.for_each_run([this](std::size_t first, std::size_t count, std::span<const BandView> bands) {
             sum(first, count, bands);
         });
-        m_status = {};
-        for (std::size_t choice = 0; choice < m_outputs.size() && m_status; ++choice)
-            if (m_beside[choice] != nullptr)
-                m_status = sum_reduced(choice, block, pixels);
         make_reference(pixels);
         for (std::size_t choice = 0; choice < m_outputs.size(); ++choice)
             if (m_shared.choices.list[choice].row_step == 1)
@@ -83,7 +101,6 @@ class Comparer final : public BlockVisitor {
     }
 
     [[nodiscard]] Result<void> deliver(const PlanarBlock& block) override {
-        OSIO_CHECK_OK(m_status);
         for (std::size_t choice = 0; choice < m_outputs.size(); ++choice) {
             if (m_shared.choices.list[choice].row_step > 1) {
                 repeat_rows(choice, block);
@@ -104,30 +121,20 @@ class Comparer final : public BlockVisitor {
     void sum(std::size_t first, std::size_t count, std::span<const BandView> bands) {
         for (std::size_t choice = 0; choice < m_outputs.size(); ++choice) {
             const Choice& what = m_shared.choices.list[choice];
-            if (what.input == Input::ReducedImage)
-                continue;
             const std::array<float*, 3> out{m_outputs[choice][0].data() + first,
                                             m_outputs[choice][1].data() + first,
                                             m_outputs[choice][2].data() + first};
+            const auto own = bands.subspan(m_shared.first_plane[choice], what.weights.bands());
             if (what.level == Level::Reference)
-                collapse_run_reference(bands, what.weights, count, out);
+                collapse_run_reference(own, what.weights, count, out);
             else
-                collapse_run(what.input == Input::HalfImage ? m_halves.of(bands, count) : bands, what.weights,
+                collapse_run(what.input == Input::HalfImage ? m_halves.of(own, count) : own, what.weights,
                              count, out);
             if (what.half_output)
                 for (float* const plane : out)
                     for (std::size_t i = 0; i < count; ++i)
                         plane[i] = Imath::half(std::clamp(plane[i], -65504.0F, 65504.0F));
         }
-    }
-
-    [[nodiscard]] Result<void> sum_reduced(std::size_t choice, const PlanarBlock& block, std::size_t pixels) {
-        OSIO_TRY(const std::span<const BandView> bands,
-                 m_beside[choice]->read({block.first_row, block.first_row + block.row_count - 1}));
-        Planes& planes = m_outputs[choice];
-        const std::array<float*, 3> out{planes[0].data(), planes[1].data(), planes[2].data()};
-        collapse_run(bands, m_shared.choices.list[choice].file_weights, pixels, out);
-        return {};
     }
 
     [[nodiscard]] Vector3 share(std::size_t choice, std::size_t pixel) const {
@@ -190,31 +197,21 @@ class Comparer final : public BlockVisitor {
     std::vector<Lab> m_reference_lab;
     std::vector<std::vector<float>> m_deltas;  ///< by choice, of the block
     std::vector<double> m_largest;
-    std::vector<std::unique_ptr<RowsBeside>> m_beside;  ///< by choice; null but of reduced images
-    Result<void> m_status;
 };
 
 }  // namespace
 
 Result<void> compare(const image::CollapseJob& job, const Choices& choices, Runner& runner,
                      const Progress& progress, const Spectator& show) {
-    OSIO_TRY(const auto source,
-             job.file->make_block_source(job.part_index, choices.planes, image::Grain::Block));
+    std::vector<std::size_t> first_plane;
+    OSIO_TRY(const auto source, join_planes(job, choices, first_plane));
     const image::Window& window = job.part().data_window;
     Comparison comparison{choices,
                           show,
                           static_cast<std::size_t>(window.width()),
                           window.min_y,
                           std::vector<Planes>(choices.list.size()),
-                          {}};
-    for (const Choice& choice : choices.list) {
-        comparison.reduced.emplace_back();
-        if (choice.input != Input::ReducedImage)
-            continue;
-        OSIO_TRY(const auto file, image::open_image(choice.path));
-        OSIO_TRY(comparison.reduced.back(),
-                 file->make_block_source(0, choice.file_planes, image::Grain::Block));
-    }
+                          std::move(first_plane)};
     const auto start = [&] { return std::make_unique<Comparer>(comparison); };
     return visit_blocks(*source, {window.min_y, window.max_y}, runner, start, progress);
 }

@@ -162,7 +162,7 @@ Result<Workbench::Source> Workbench::source_of(const Choice& choice, const TextL
             planes.emplace_back(column.channel);
         planes.resize(m_choices.planes.size());
     } else if (choice.input == Input::ReducedImage) {
-        return Source{choice.path, {}, 0, choice.file_planes, choice.file_weights};
+        return Source{choice.path, {}, 0, choice.file_planes, choice.weights};
     } else if (choice.input == Input::ColourImage) {
         OSIO_TRY(out.path, colour_image(load_text, runner, progress));
         out.part = 0;

@@ -71,10 +71,9 @@ Result<Choice> choice_of(const image::CollapseJob& job, const reduce::Outcome& o
                   (lights.empty() ? std::string() : " under " + join(lights, ", "));
     out.input = Input::ReducedImage;
     out.path = outcome.output;
-    out.file_weights = reduced.plan.weights;
+    out.weights = reduced.plan.weights;
     for (const PlanColumn& column : reduced.plan.columns)
         out.file_planes.emplace_back(column.channel);
-    out.weights = WeightMatrix(3, 0);
     out.bands = reduced.plan.bands.size();
     return out;
 }
