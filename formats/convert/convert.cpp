@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <formats/convert/all_parts.h>
 #include <formats/convert/convert.h>
 #include <formats/convert/fan_out.h>
 #include <formats/convert/join.h>
@@ -271,6 +272,10 @@ Result<Outcome> convert(const Request& request, Runner& runner, const Progress& 
     Outcome out;
     out.output = request.output;
     OSIO_TRY(const auto image, open_inputs(request, out));
+    if (takes_all_parts(request, *target, *image)) {
+        OSIO_CHECK_OK(write_all_parts(request, image, runner, progress, out));
+        return out;
+    }
     OSIO_TRY(const auto sets, selections(request, *target, *image));
     if (std::string others = other_parts(request, *image); !others.empty())
         out.lost.push_back(std::move(others));

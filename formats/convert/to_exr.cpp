@@ -1,14 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <formats/convert/samples.h>
+#include <formats/convert/exr_parts.h>
 #include <formats/convert/sink.h>
-#include <formats/exr/exr_file.h>
-#include <formats/exr/exr_writer.h>
 #include <formats/exr/spectral_header.h>
 #include <formats/image/header_attributes.h>
-
-#include <osio/layout/presentation.h>
-
-#include <OpenEXR/ImfTileDescription.h>
 
 #include <algorithm>
 
@@ -16,69 +10,13 @@ namespace osio::convert {
 
 namespace {
 
-/// A part of the output and which of the choice's channels it holds.
-struct PartPlan {
-    exr::OutputPart part;
-    std::vector<std::size_t> planes;
-};
-
-/// A worker's blocks, converted and packed, part by part.
-class Packing final : public BlockVisitor {
-  public:
-    Packing(exr::ExrWriter& writer, const std::vector<PartPlan>& parts, std::size_t width,
-            std::uint64_t& clamped)
-        : m_parts(parts), m_width(width), m_clamped(clamped) {
-        for (std::size_t p = 0; p < parts.size(); ++p) {
-            m_packers.push_back(writer.start_packer(p));
-            m_buffers.emplace_back(parts[p].planes.size());
-        }
-        m_packed.resize(parts.size());
-    }
-
-    void process(const PlanarBlock& block) override {
-        for (std::size_t p = 0; p < m_parts.size(); ++p) {
-            std::vector<exr::ChannelRows> rows;
-            for (std::size_t c = 0; c < m_parts[p].planes.size(); ++c) {
-                const SampleType type = m_parts[p].part.channels[c].type;
-                const auto bytes = static_cast<std::ptrdiff_t>(sample_bytes(type));
-                rows.push_back({m_buffers[p][c].convert(block, m_parts[p].planes[c], type), bytes,
-                                bytes * static_cast<std::ptrdiff_t>(m_width)});
-            }
-            m_packed[p] = m_packers[p]->pack(block.first_row, block.row_count, rows);
-        }
-    }
-
-    [[nodiscard]] Result<void> deliver(const PlanarBlock&) override {
-        std::uint64_t clamped = 0;
-        for (std::size_t p = 0; p < m_parts.size(); ++p) {
-            OSIO_CHECK_OK(m_packed[p]);
-            for (const SampleBuffer& buffer : m_buffers[p])
-                clamped += buffer.clamped();
-        }
-        m_clamped += clamped - m_told;
-        m_told = clamped;
-        for (const auto& packer : m_packers)
-            OSIO_CHECK_OK(packer->write());
-        return {};
-    }
-
-  private:
-    const std::vector<PartPlan>& m_parts;
-    std::vector<std::unique_ptr<exr::ExrWriter::Packer>> m_packers;
-    std::vector<std::vector<SampleBuffer>> m_buffers;  // of each part's channels
-    std::vector<Result<void>> m_packed;
-    std::size_t m_width;
-    std::uint64_t& m_clamped;
-    std::uint64_t m_told = 0;  // of m_buffers' counts
-};
-
 class ExrFileSink final : public Sink {
   public:
     ExrFileSink(std::unique_ptr<exr::ExrWriter> writer, std::vector<PartPlan> parts, std::size_t width)
         : m_writer(std::move(writer)), m_parts(std::move(parts)), m_width(width) {}
 
     [[nodiscard]] std::unique_ptr<BlockVisitor> start() override {
-        return std::make_unique<Packing>(*m_writer, m_parts, m_width, m_clamped);
+        return std::make_unique<Packing>(*m_writer, m_parts, 0, m_width, m_clamped);
     }
 
     [[nodiscard]] int rows_together() const override { return m_writer->rows_together(); }
@@ -94,35 +32,6 @@ class ExrFileSink final : public Sink {
     std::size_t m_width;
     std::uint64_t m_clamped = 0;
 };
-
-/// Names and types of a choice's channels as they are stored.
-std::vector<exr::OutputChannel> stored_channels(const Request& request, const Choice& choice,
-                                                Outcome& outcome) {
-    const image::Part& part = choice.part();
-    const std::vector<std::string> all = written_names(part.layout);
-    std::vector<std::string> names;
-    for (const std::size_t channel : choice.channels)
-        names.push_back(all[channel]);
-    std::vector<exr::OutputChannel> out;
-    bool rounded = false;
-    for (std::size_t c = 0; c < names.size(); ++c) {
-        const SampleType type = part.channels[choice.channels[c]].delivered();
-        const SampleType stored = type == SampleType::Uint ? type : request.depth.value_or(type);
-        rounded = rounded || (type == SampleType::Float && stored == SampleType::Half);
-        out.push_back({names[c], stored});
-        add_unique({std::string(sample_type_name(stored))}, outcome.types);
-    }
-    if (rounded)
-        add_unique({"digits of floats beyond the 11 bits of a half"}, outcome.lost);
-    return out;
-}
-
-std::vector<std::string> names_of(const std::vector<exr::OutputChannel>& channels) {
-    std::vector<std::string> out;
-    for (const exr::OutputChannel& channel : channels)
-        out.push_back(channel.name);
-    return out;
-}
 
 /// A part with the channels that a test on their names chooses.
 template <class Wanted>
@@ -175,17 +84,7 @@ Result<std::vector<PartPlan>> two_parts(const Choice& choice, const std::vector<
 
 Result<std::unique_ptr<Sink>> open_exr(const Request& request, const Choice& choice, Outcome& outcome) {
     const auto channels = stored_channels(request, choice, outcome);
-    Imf::Header header = choice.attributes;
-    for (std::size_t c = 0; c < channels.size(); ++c)
-        if (channels[c].type != choice.part().channels[choice.channels[c]].type)
-            image::erase_attributes({std::string(attribute::kReduction)}, header);
-    if (!request.compression.empty()) {
-        OSIO_TRY(header.compression(), exr::find_compression(request.compression));
-    }
-    if (request.tile)
-        header.setTileDescription(Imf::TileDescription(static_cast<unsigned>(request.tile->width),
-                                                       static_cast<unsigned>(request.tile->height)));
-    exr::complete_spectral_header(parse_channel_layout(names_of(channels), DecimalMark::Comma), header);
+    OSIO_TRY(Imf::Header header, stored_header(request, choice, channels));
     std::vector<PartPlan> parts;
     if (request.multi_part) {
         OSIO_TRY(parts, two_parts(choice, channels, header));

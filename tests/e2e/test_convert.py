@@ -238,6 +238,46 @@ class Resample(ConvertCase):
 REC709 = (0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329)
 
 
+class Parts(ConvertCase):
+    """Every part of an EXR goes into another, with its own window, types and attributes."""
+
+    def parts(self):
+        self.write_exr("a.exr", self.bands(GRID, (19, 21)), attributes=[("note", "left")], origin=(3, -2), full=(0, 0, 40, 40))
+        self.write_exr("b.exr", self.bands([450, 550], (40, 11), seed=2, prefix="S0"), types=HALF, full=(0, 0, 40, 40), attributes=[
+            ("emissiveUnits", "W.m^-2.sr^-1")])
+        self.write_exr("c.exr", {name: np.full((5, 6), value) for name, value in zip("RGB", (0.1, 0.2, 0.3))}, full=(0, 0, 40, 40))
+        self.check("oiiotool", "a.exr", "b.exr", "--siappend", "c.exr", "--siappend", "-o", "parts.exr")
+        return self.osiotool_json("info", "parts.exr")["parts"]
+
+    def test_all_parts_go_over(self):
+        before = self.parts()
+        self.assertEqual(len(before), 3)
+        for words in ((), ("--tile", "16x8"), ("--compression", "piz"), ("--tile", "8x16", "--compression", "zips", "--threads", "3")):
+            report = self.osiotool_json("convert", "parts.exr", "out.exr", *words)
+            self.assertEqual((report["lost"], report["bands"]), ([], len(GRID) + 2))
+            after = self.osiotool_json("info", "out.exr")["parts"]
+            for i, (old, new) in enumerate(zip(before, after, strict=True)):
+                for key in ("name", "data_window", "display_window", "sets", "other_channels"):
+                    self.assertEqual(new[key], old[key], (words, i, key))
+                self.assert_same(self.bits("out.exr", subimage=i), self.bits("parts.exr", subimage=i))
+            self.assertIn("note", self.check("exrheader", "out.exr"))
+            self.assertIn("sound", self.osiotool("verify", "out.exr").stdout)
+        report = self.osiotool_json("convert", "parts.exr", "half.exr", "--half")
+        self.assertEqual(report["types"], ["half"])
+        for i in range(3):
+            for name, plane in self.channels_of("parts.exr", subimage=i).items():
+                np.testing.assert_array_equal(self.channels_of("half.exr", subimage=i)[name], plane.astype(np.float16))
+
+    def test_words_that_choose_or_change_bands_take_one_part(self):
+        self.parts()
+        report = self.osiotool_json("convert", "parts.exr", "one.exr", "--part", "1")
+        self.assertIn("2 other parts", report["lost"])
+        self.assertEqual(len(self.osiotool_json("info", "one.exr")["parts"]), 1)
+        self.osiotool("convert", "parts.exr", "one.exr", "--bands", "400-500nm", code=1)
+        report = self.osiotool_json("convert", "parts.exr", "one.hdr", "--set", "S0")
+        self.assertIn("2 other parts", report["lost"])
+
+
 class Pictures(ConvertCase):
     """Tiles, R, G, B made of the bands, and the picture in a part of its own."""
 
