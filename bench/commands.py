@@ -85,7 +85,7 @@ def measure(commands, rounds):
             seconds[name].append(taken)
     first = next(iter(seconds.values()))
     return {name: f"{title} | {statistics.median(seconds[name]):.2f} | "
-                  f"{statistics.median(a / b for a, b in zip(seconds[name], first)):.1f} | {megabytes[name]:.0f}"
+                  f"{statistics.median(a / b for a, b in zip(seconds[name], first)):.2f} | {megabytes[name]:.0f}"
             for name, (title, _) in commands.items()}
 
 
