@@ -239,7 +239,7 @@ class Browser(PageCase):
         difference = lambda d: "0" if d == 0 else re.sub("-0", "-", f"{d:.0e}") if d < 0.0005 else f"{d:.3f}"
         for cells, c in zip(rows, self.table["choices"]):
             expected = ["●" if c["front"] else "", c["choice"], str(c["bands"]), f"{c['seconds']:.3f}",
-                        f"{c['fastest']:.3f}–{c['slowest']:.3f}", c["against_exact"], f"{c['decode']:.3f}",
+                        f"{c['fastest']:.3f}–{c['slowest']:.3f}", f"{c['predicted']:.3f}", c["against_exact"], f"{c['decode']:.3f}",
                         f"{c['collapse']:.3f}", f"{c['write']:.3f}", f"{c['bytes_read'] / 1e6:.1f}",
                         f"{c['bytes_written'] / 1e6:.1f}", f"{c['peak_mb']:.0f}",
                         *(difference(c[f"delta_e_{key}"]) for key in ("mean", "95", "99_9", "max"))]
