@@ -33,6 +33,8 @@ function(osio_test name)
   add_executable(${name} ${arg_SOURCES})
   target_link_libraries(${name} PRIVATE osio_flags ${arg_LINK} GTest::gtest_main)
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/tests)
+  osio_precompile(${name} <algorithm> <cmath> <functional> <gtest/gtest.h> <memory> <optional> <random> <string>
+                  <tl/expected.hpp> <vector>)
   target_compile_definitions(${name} PRIVATE OSIO_TEST_DIR="${PROJECT_SOURCE_DIR}/tests")
   gtest_discover_tests(${name} TEST_LIST ${name}_list DISCOVERY_TIMEOUT 60)
   set(script ${CMAKE_CURRENT_BINARY_DIR}/${name}_labels.cmake)

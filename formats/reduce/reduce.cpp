@@ -24,8 +24,6 @@ constexpr std::array<std::string_view, 5> kLossless{"none", "rle", "zips", "zip"
 /// original's; else zip, the next: docs/design/0016-reduce.md.
 constexpr std::uint64_t kPlainShare = 8;
 
-constexpr int kMostPasses = 16;
-
 Result<void> check_compression(const std::string& name) {
     if (name.empty())
         return {};
@@ -159,7 +157,7 @@ Result<Outcome> reduce(const Request& request, const TextLoader& load_text, Runn
     out.height = window.height();
     const auto pixels = static_cast<std::uint64_t>(out.width) * static_cast<std::uint64_t>(out.height);
     const auto find = request.scene_basis ? find_scene_candidate : find_candidate;
-    while (out.passes < kMostPasses) {
+    while (out.passes < request.most_passes) {
         OSIO_TRY(std::optional<Candidate> candidate,
                  find(subject, fit, sample, request.tolerance, load_text));
         if (!candidate)
@@ -191,7 +189,7 @@ Result<Outcome> reduce(const Request& request, const TextLoader& load_text, Runn
         for (std::size_t i = 0; i < pass.beyond.size(); ++i)
             sample.add(pass.beyond.pixel(i));
     }
-    return not_reached(request, subject, ", after " + std::to_string(kMostPasses) + " attempts");
+    return not_reached(request, subject, ", after " + std::to_string(request.most_passes) + " attempts");
 }
 
 }  // namespace osio::reduce

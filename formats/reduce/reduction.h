@@ -27,6 +27,7 @@ struct Request {
     bool scene_basis = false;  ///< coefficients of the scene's own curves in place of bins
     double tolerance = 0;      ///< CIEDE2000 that no pixel may exceed
     std::string compression;   ///< empty: the one that is read fastest
+    int most_passes = 16;      ///< attempts, each over all pixels; NotCertified after as many
     files::Durability durability = files::Durability::Handed;
 };
 

@@ -16,6 +16,9 @@ namespace {
 /// CIEDE2000: not to be seen side by side, and hardly to be seen.
 constexpr std::array<double, 2> kTolerances{0.5, 2};
 
+/// Of a search for each; images that need more, such as noise in every band, have no such choice.
+constexpr int kMostPasses = 3;
+
 /// Daylight, tungsten, a fluorescent lamp and a LED, beside the job's own.
 constexpr std::array<std::string_view, 4> kLights{"D65", "A", "FL11", "LED-B3"};
 
@@ -43,6 +46,7 @@ reduce::Request request_for(const image::CollapseJob& job, double tolerance) {
     out.lights = lights_of(job);
     out.observers = {request.observer};
     out.tolerance = tolerance;
+    out.most_passes = kMostPasses;
     return out;
 }
 

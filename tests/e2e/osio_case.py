@@ -108,7 +108,7 @@ class OsioCase(unittest.TestCase):
 
     # Running programs
 
-    def run_program(self, *command, env=None, timeout=60, **options):
+    def run_program(self, *command, env=None, timeout=180, **options):
         environment = dict(os.environ, **(env or {}))
         return subprocess.run([str(c) for c in command], cwd=self.folder, env=environment, timeout=timeout,
                               capture_output=True, text=True, **options)
