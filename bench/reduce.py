@@ -255,6 +255,22 @@ def headline(options, folder):
     return out
 
 
+def compressions(options, folder):
+    """The noisy reduction in every compression that keeps its samples, against the original."""
+    out = ["| compression | MB | collapse, s | of the original's |", "|---|---|---|---|"]
+    path, result = os.path.join(folder, "scene.exr"), os.path.join(folder, "out.exr")
+    make(path, "noisy", *map(int, options.size.split("x")))
+    files = [("the original, zip", path)]
+    for name in ("none", "rle", "zips", "zip", "piz"):
+        files.append((name, os.path.join(folder, f"{name}.spexr")))
+        reduced(path, files[-1][1], "--compression", name)
+    times = seconds([("collapse", source, result, *COLLAPSE, "--compression", "none") for _, source in files], options.rounds)
+    out += [f"| {name} | {os.path.getsize(source) / 1e6:.1f} | {statistics.median(taken):.3f} | {1 / ratio(taken, times[0]):.3f} |"
+            for (name, source), taken in zip(files, times)]
+    os.remove(path)
+    return out
+
+
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.split("\n")[0])
     arguments.add_argument("--size", default="1920x1080")
@@ -264,7 +280,8 @@ def main():
     arguments.add_argument("--write", action="store_true")
     options = arguments.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        tables = {"reduce, targets": headline(options, folder), "reduce, scenes": scenes(options, folder)}
+        tables = {"reduce, targets": headline(options, folder), "reduce, compressions": compressions(options, folder),
+                  "reduce, scenes": scenes(options, folder)}
         real = real_images(options, folder)
         if len(real) > 2:
             tables["reduce, real files"] = real

@@ -11,11 +11,11 @@
 #include <osio/collapse/pixel_stage.h>
 #include <osio/colour/difference.h>
 
+#include <support/random_numbers.h>
 #include <support/sets.h>
 
 #include <array>
 #include <cmath>
-#include <random>
 
 namespace osio {
 namespace {
@@ -23,12 +23,7 @@ namespace {
 using test::plan_of;
 using test::set_of;
 using test::steps;
-
-std::mt19937_64 g_random(20261128);
-
-double uniform(double from, double to) {
-    return std::uniform_real_distribution<double>(from, to)(g_random);
-}
+using test::uniform;
 
 /// Of either sign now and then, of every magnitude from 2^-30 to 2^14.
 double any_sample() {

@@ -10,12 +10,12 @@
 #include <osio/reduce/non_negative.h>
 #include <osio/reduce/scene_basis.h>
 
+#include <support/random_numbers.h>
 #include <support/sets.h>
 
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 
 namespace osio {
 namespace {
@@ -23,12 +23,7 @@ namespace {
 using test::plan_of;
 using test::set_of;
 using test::steps;
-
-std::mt19937_64 g_random(20261128);
-
-double uniform(double from, double to) {
-    return std::uniform_real_distribution<double>(from, to)(g_random);
-}
+using test::uniform;
 
 std::vector<Demand> demands_of(const SpectralSet& set, const std::vector<std::string>& lights) {
     std::vector<Demand> out;
